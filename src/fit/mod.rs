@@ -1,0 +1,1 @@
+//! Floor 2: fitting Phong peaks to a distribution of normals.

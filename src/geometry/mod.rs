@@ -1,0 +1,12 @@
+//! Floor 0: vectors, frames, hemisphere grids, and elementary functions that give the same bits on
+//! every machine.
+
+pub mod elementary;
+mod frame;
+mod hemisphere;
+
+pub use frame::Frame;
+pub use hemisphere::{HemisphereGrid, Sample};
+
+/// A vector or point in double precision; which space it lives in is said where it is used.
+pub type Vec3 = nalgebra::Vector3<f64>;

@@ -1,0 +1,119 @@
+//! Lobes whose contours are ellipses in slopes about an axis.
+
+use std::f32::consts::{PI, TAU};
+
+use super::vector::{Sym2, V3, dot, invert, quadratic, tangents, unit};
+use super::{Facet, Spread};
+use crate::geometry::elementary::{exp32, ln_1p32};
+
+/// How density falls with q = xᵀ M⁻¹ x, where x is the slope of h about the lobe's axis and M the
+/// spread matrix. Each P(x) integrates to 1 over the plane of slopes.
+///
+/// | profile | P(x) | M is |
+/// |---|---|---|
+/// | Student | (s+2)/(2π s √det M) · (1 + q/s)^(−(s+4)/2) | the slope covariance |
+/// | Gaussian | exp(−q/2) / (2π √det M) | the slope covariance |
+/// | Ggx | 1 / (π √det M (1 + q)²) | α² along each axis |
+///
+/// With M = I/s, Student is exactly the Blinn-Phong lobe of exponent s: a bivariate Student-t in
+/// slopes with s + 2 degrees of freedom. Its elliptical and tilted forms are thus Blinn-Phong made
+/// anisotropic, in closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Profile {
+    /// Blinn-Phong's.
+    Student {
+        /// The base exponent s.
+        exponent: f32,
+    },
+    /// Beckmann's.
+    Gaussian,
+    /// GGX's.
+    Ggx,
+}
+
+/// D(h) = amplitude · P(x) / (h·axis)⁴ for h above the plane across the axis, else 0, with
+/// x = h's slopes about the axis.
+///
+/// Its vector moment along the axis, ∫ D(h) (h·axis) dω, is `amplitude`: P integrates to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipticLobe {
+    axis: V3,
+    tangent: V3,
+    bitangent: V3,
+    spread: Sym2,
+    inverse: Sym2,
+    peak: f32,
+    profile: Profile,
+}
+
+impl EllipticLobe {
+    /// The lobe about `axis` (any length) with spread matrix `spread` in the frame that the smallest
+    /// rotation from z carries to the axis.
+    #[inline(always)]
+    pub fn new(axis: V3, spread: Sym2, amplitude: f32, profile: Profile) -> Self {
+        let axis = unit(axis);
+        let (tangent, bitangent) = tangents(axis);
+        let (inverse, determinant) = invert(spread);
+        let at_zero = match profile {
+            Profile::Student { exponent: s } => (s + 2.0) / (TAU * s),
+            Profile::Gaussian => 1.0 / TAU,
+            Profile::Ggx => 1.0 / PI,
+        };
+        let peak = amplitude * at_zero / determinant.sqrt();
+        Self { axis, tangent, bitangent, spread, inverse, peak, profile }
+    }
+
+    /// Its axis, of unit length.
+    pub fn axis(&self) -> V3 {
+        self.axis
+    }
+
+    /// Its spread matrix about the axis (see [`Profile`]).
+    pub fn spread(&self) -> Sym2 {
+        self.spread
+    }
+
+    /// The same lobe with its density multiplied by `factor`.
+    pub fn faded(self, factor: f32) -> Self {
+        Self { peak: self.peak * factor, ..self }
+    }
+}
+
+impl Spread for EllipticLobe {
+    #[inline(always)]
+    fn density(&self, h: V3) -> f32 {
+        let cosine = dot(h, self.axis);
+        let inverse_cosine = 1.0 / cosine.max(f32::MIN_POSITIVE);
+        let x = dot(h, self.tangent) * inverse_cosine;
+        let y = dot(h, self.bitangent) * inverse_cosine;
+        let q = quadratic(self.inverse, x, y).max(0.0);
+        let t = x * x + y * y;
+        // 1 / (h·axis)⁴ of a unit h.
+        let secant4 = (1.0 + t) * (1.0 + t);
+        let fall = match self.profile {
+            Profile::Student { exponent: s } => {
+                exp32(-0.5 * (s + 4.0) * ln_1p32(q / s) + 2.0 * ln_1p32(t))
+            }
+            Profile::Gaussian => exp32(-0.5 * q) * secant4,
+            Profile::Ggx => secant4 / ((1.0 + q) * (1.0 + q)),
+        };
+        if cosine > 0.0 { self.peak * fall } else { 0.0 }
+    }
+
+    #[inline(always)]
+    fn facet(&self) -> Facet {
+        let (scale, ggx) = match self.profile {
+            // Walter et al. 2007: α² = 2/(s + 2) for a Phong lobe of exponent s.
+            Profile::Student { exponent: s } => (2.0 * s / (s + 2.0), false),
+            Profile::Gaussian => (2.0, false),
+            Profile::Ggx => (1.0, true),
+        };
+        Facet {
+            axis: self.axis,
+            tangent: self.tangent,
+            bitangent: self.bitangent,
+            alpha_squared: self.spread.map(|m| scale * m),
+            ggx,
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Floor 1: lobes. A lobe is a spread of normals around a direction; a list of them is a multiple
+//! surface.
+//!
+//! # The measure
+//! A lobe's density D is per steradian, and D of a single base lobe about its own normal n is
+//! normalised as a microfacet distribution: ∫ D(h) (h·n) dω = 1. Then ∫ D(h) h dω = n as well (by
+//! symmetry), so the *vector moment* of a weighted mixture is Σ wᵢ nᵢ. That identity is how "energy"
+//! is stated everywhere here: a lobe keeps the energy of a footprint if its vector moment along its
+//! own axis is |Σ wᵢ nᵢ|.
+
+mod base;
+mod elliptic;
+mod facet;
+mod multiple_surface;
+mod peak;
+mod pearson;
+mod pedal;
+pub mod vector;
+
+pub use base::BaseLobe;
+pub use elliptic::{EllipticLobe, Profile};
+pub use facet::{Facet, Shading, Spread};
+pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface};
+pub use peak::PhongPeak;
+pub use pearson::PearsonLobe;
+pub use pedal::PedalLobe;

@@ -1,0 +1,60 @@
+//! Many shading points at once, in structure-of-arrays form.
+
+use crate::texture::Footprint;
+
+/// Lanes in a batch: a few kilobytes an axis, so that a batch stays in the first-level cache.
+pub const BATCH: usize = 128;
+
+/// One number a lane.
+pub type Lane = [f32; BATCH];
+
+/// Up to [`BATCH`] shading points of one surface, one light, one map.
+///
+/// Directions are in the surface's tangent space. Lanes past `len` hold finite numbers of no meaning,
+/// so that loops can run over the whole width.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// How many lanes are real.
+    pub len: usize,
+    /// Folded texture coordinate across the map (see [`crate::texture::Wrap::fold`]).
+    pub u: Lane,
+    /// Folded texture coordinate along the map.
+    pub v: Lane,
+    /// [∂u/∂x, ∂v/∂x, ∂u/∂y, ∂v/∂y] for one sample spacing (see [`Footprint`]); unset where the
+    /// method does not need footprints.
+    pub jacobian: [Lane; 4],
+    /// Direction of the half vector; any length.
+    pub half: [Lane; 3],
+    /// Unit direction to the light; unset for [`crate::lobe::Shading::Ndf`].
+    pub light: [Lane; 3],
+    /// Unit direction to the eye; unset for [`crate::lobe::Shading::Ndf`].
+    pub view: [Lane; 3],
+    /// Irradiance on a plane facing the light; 0 where the ray misses or the light is below the
+    /// horizon of the surface.
+    pub irradiance: Lane,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        let up = [[0.0; BATCH], [0.0; BATCH], [1.0; BATCH]];
+        Self {
+            len: 0,
+            u: [0.0; BATCH],
+            v: [0.0; BATCH],
+            jacobian: [[0.0; BATCH]; 4],
+            half: up,
+            light: up,
+            view: up,
+            irradiance: [0.0; BATCH],
+        }
+    }
+}
+
+impl Batch {
+    /// The footprint of lane `i`.
+    #[inline(always)]
+    pub fn footprint(&self, i: usize) -> Footprint {
+        let [ux, vx, uy, vy] = &self.jacobian;
+        Footprint { u: self.u[i], v: self.v[i], along_x: [ux[i], vx[i]], along_y: [uy[i], vy[i]] }
+    }
+}

@@ -1,0 +1,134 @@
+//! Floor 3: the filters. One file a method; [`registry`] lists them.
+//!
+//! A method has two halves. [`Method::prefilter`] turns a normal map into something that can be looked
+//! up, once per map and base lobe, as slowly as it likes. [`Prefiltered`] answers, for any footprint,
+//! with a multiple surface, and shades whole batches at speed.
+
+mod averaged;
+mod batch;
+mod one_lobe;
+mod registry;
+mod unfiltered;
+
+pub use batch::{BATCH, Batch, Lane};
+pub use registry::{Entry, build, entries, find};
+
+use crate::lobe::{BaseLobe, MultipleSurface, Shading};
+use crate::texture::{Footprint, NormalMap};
+
+/// What a method is, for lists, reports and help.
+#[derive(Clone, Copy, Debug)]
+pub struct Card {
+    /// Its name in specs, reports and on the command line.
+    pub name: &'static str,
+    /// Author, year, title, section.
+    pub source: &'static str,
+    /// What it does, in a sentence.
+    pub summary: &'static str,
+    /// The multiple surface it makes of a footprint, in words and symbols.
+    pub formula: &'static str,
+    /// What it cannot do.
+    pub limits: &'static str,
+    /// Whether its lobes keep the energy of the footprint (see [`crate::lobe`]); false for forms
+    /// printed without a normalisation.
+    pub normalised: bool,
+}
+
+/// Why a method does not take a base lobe, as a sentence for the report's empty cell.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Refusal(pub String);
+
+/// Why a prefilter did not finish.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PrefilterError {
+    /// The base lobe is not one the method takes.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// [`Progress::cancelled`] said so.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// How a long prefilter tells how far it is and learns that it should stop.
+pub trait Progress: Sync {
+    /// `done` of `total` units of work are done. Called from any thread.
+    fn advance(&self, done: usize, total: usize) {
+        let _ = (done, total);
+    }
+
+    /// Whether the work should stop as soon as it can (within a tenth of a second).
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Progress that nobody watches.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+impl Progress for Silent {}
+
+/// A filter for bump maps.
+pub trait Method: Send + Sync + std::fmt::Debug {
+    /// What it is.
+    fn card(&self) -> Card;
+
+    /// How near it comes to `base` where a footprint holds a single normal: the total variation
+    /// distance ½ ∫ |D − D_base| cos dω it claims to stay under (0 for exact, up to rounding).
+    ///
+    /// # Errors
+    /// A [`Refusal`] if it cannot take this base lobe at all.
+    fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
+
+    /// Builds what is looked up while rendering. The map is shared, not copied.
+    ///
+    /// # Errors
+    /// [`PrefilterError::Refused`] if [`Method::base_error`] refuses, or
+    /// [`PrefilterError::Cancelled`].
+    fn prefilter(
+        &self,
+        map: &std::sync::Arc<NormalMap>,
+        base: &BaseLobe,
+        progress: &dyn Progress,
+    ) -> Result<Box<dyn Prefiltered>, PrefilterError>;
+}
+
+/// A normal map made ready by a method.
+pub trait Prefiltered: Send + Sync {
+    /// Memory it holds beyond the normal map itself, in bytes.
+    fn bytes(&self) -> usize;
+
+    /// Whether it looks at footprints at all; if not, batches come without them.
+    fn needs_footprint(&self) -> bool {
+        true
+    }
+
+    /// The multiple surface at a footprint, in tangent space.
+    fn lobes_at(&self, footprint: &Footprint) -> MultipleSurface;
+
+    /// Radiance of every lane of a batch, written to `radiance` (lanes past `batch.len` are left
+    /// unspecified). This default walks [`Prefiltered::lobes_at`]; a method overrides it with a kernel
+    /// that becomes vector code, and a test holds every such kernel to this.
+    fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        shade_by_lobes(self, batch, shading, radiance);
+    }
+}
+
+/// The generic path of [`Prefiltered::shade`]: lobe by lobe.
+pub fn shade_by_lobes<P: Prefiltered + ?Sized>(
+    prefiltered: &P,
+    batch: &Batch,
+    shading: Shading,
+    radiance: &mut Lane,
+) {
+    for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
+        *out = if batch.irradiance[i] > 0.0 {
+            let surface = prefiltered.lobes_at(&batch.footprint(i));
+            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
+                .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
+            batch.irradiance[i] * surface.radiance(shading, half, light, view)
+        } else {
+            0.0
+        };
+    }
+}

@@ -1,0 +1,1 @@
+//! Floor 4: error measures between images, and between distributions.

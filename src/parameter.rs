@@ -1,0 +1,148 @@
+//! Floor 0: options that a pattern or a method takes, described so that a spec can be checked against
+//! them and help can be printed from them.
+
+use std::collections::BTreeMap;
+
+/// One option of a pattern or method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its key in a spec.
+    pub name: &'static str,
+    /// What it does, its unit and space.
+    pub meaning: &'static str,
+    /// What it may be, and what it is if the spec is silent.
+    pub domain: Domain,
+}
+
+/// The values a [`Parameter`] may take, and its default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Domain {
+    /// A real number in [min, max].
+    Real {
+        /// Value if not given.
+        default: f64,
+        /// Smallest value allowed.
+        min: f64,
+        /// Largest value allowed.
+        max: f64,
+    },
+    /// A whole number in [min, max].
+    Whole {
+        /// Value if not given.
+        default: u32,
+        /// Smallest value allowed.
+        min: u32,
+        /// Largest value allowed.
+        max: u32,
+    },
+    /// One of a few words; the first is the default.
+    Choice {
+        /// The words.
+        words: &'static [&'static str],
+    },
+}
+
+impl Domain {
+    /// The value if a spec is silent.
+    pub fn default(&self) -> Value {
+        match *self {
+            Self::Real { default, .. } => Value::Number(default),
+            Self::Whole { default, .. } => Value::Number(f64::from(default)),
+            Self::Choice { words } => Value::Word(words[0]),
+        }
+    }
+}
+
+/// A parameter's value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Of a real or whole parameter.
+    Number(f64),
+    /// Of a choice.
+    Word(&'static str),
+}
+
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Word(word) => f.write_str(word),
+        }
+    }
+}
+
+/// Values for all parameters of a pattern or method; complete and within their domains.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Values(BTreeMap<&'static str, Value>);
+
+impl Values {
+    /// The defaults of these parameters.
+    pub fn defaults(parameters: &[Parameter]) -> Self {
+        Self(parameters.iter().map(|p| (p.name, p.domain.default())).collect())
+    }
+
+    /// Sets a value. The caller has checked it against the parameter's domain.
+    pub fn set(&mut self, name: &'static str, value: Value) {
+        self.0.insert(name, value);
+    }
+
+    /// The number of parameter `name`.
+    ///
+    /// # Panics
+    /// If there is no such number: a programming error, as values are complete.
+    pub fn number(&self, name: &str) -> f64 {
+        match self.0.get(name) {
+            Some(Value::Number(number)) => *number,
+            other => panic!("parameter {name} is {other:?}, not a number"),
+        }
+    }
+
+    /// The whole number of parameter `name`.
+    ///
+    /// # Panics
+    /// If there is no such number.
+    pub fn whole(&self, name: &str) -> usize {
+        self.number(name) as usize
+    }
+
+    /// The word of parameter `name`.
+    ///
+    /// # Panics
+    /// If there is no such word.
+    pub fn word(&self, name: &str) -> &'static str {
+        match self.0.get(name) {
+            Some(Value::Word(word)) => word,
+            other => panic!("parameter {name} is {other:?}, not a word"),
+        }
+    }
+
+    /// All values by name, in alphabetical order.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, Value)> + '_ {
+        self.0.iter().map(|(name, value)| (*name, *value))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_complete() {
+        let parameters = [
+            Parameter {
+                name: "peaks",
+                meaning: "",
+                domain: Domain::Whole { default: 7, min: 1, max: 12 },
+            },
+            Parameter {
+                name: "form",
+                meaning: "",
+                domain: Domain::Choice { words: &["normalised", "printed"] },
+            },
+        ];
+        let mut values = Values::defaults(&parameters);
+        assert_eq!((values.whole("peaks"), values.word("form")), (7, "normalised"));
+        values.set("peaks", Value::Number(3.0));
+        assert_eq!(values.whole("peaks"), 3);
+    }
+}

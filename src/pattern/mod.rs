@@ -1,0 +1,47 @@
+//! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
+
+use crate::parameter::{Parameter, Values};
+use crate::texture::{HeightMap, NormalMap};
+
+/// What a pattern is, for lists, reports and help.
+#[derive(Clone, Copy, Debug)]
+pub struct Card {
+    /// Its name in specs.
+    pub name: &'static str,
+    /// Author, year, section it comes from, or what defines it.
+    pub source: &'static str,
+    /// What it looks like, in a sentence.
+    pub summary: &'static str,
+}
+
+/// A pattern the program knows.
+pub struct Entry {
+    /// What it is.
+    pub card: Card,
+    /// Its options. `width` and `height` in texels and the seed are given apart.
+    pub parameters: &'static [Parameter],
+    /// Makes the bumps on a map of `width` × `height` texels. The seed matters to random patterns
+    /// alone. The values are complete and within their domains.
+    pub build: fn(width: usize, height: usize, values: &Values, seed: u64) -> Bumps,
+}
+
+/// A bump map, and what is known of it.
+#[derive(Clone, Debug)]
+pub struct Bumps {
+    /// The normals that shading uses.
+    pub normals: NormalMap,
+    /// The heights they come from, in units of a texel's side, where there are any.
+    pub heights: Option<HeightMap>,
+    /// Things worth knowing (how many normals were not of unit length, …).
+    pub notes: Vec<String>,
+}
+
+/// Every pattern, in the order lists show them.
+pub fn entries() -> Vec<Entry> {
+    vec![]
+}
+
+/// The pattern of this name.
+pub fn find(name: &str) -> Option<Entry> {
+    entries().into_iter().find(|entry| entry.card.name == name)
+}

@@ -1,0 +1,37 @@
+//! Films: images of radiance.
+
+/// A linear, single-channel image: one radiance a pixel.
+///
+/// Row 0 is the *top* of the picture, as a screen shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    width: usize,
+    height: usize,
+    pixels: Vec<f32>,
+}
+
+impl Film {
+    /// A film from `width · height` radiances, row by row from the top.
+    ///
+    /// # Panics
+    /// If the number of pixels is not `width · height`: a programming error.
+    pub fn new(width: usize, height: usize, pixels: Vec<f32>) -> Self {
+        assert_eq!(pixels.len(), width * height, "shape of a film");
+        Self { width, height, pixels }
+    }
+
+    /// Pixels across.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Pixels down.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All radiances, row by row from the top.
+    pub fn pixels(&self) -> &[f32] {
+        &self.pixels
+    }
+}

@@ -1,0 +1,101 @@
+//! Height maps: Blinn's bump function F(u, v) as a table (Blinn 1978 §3).
+
+use super::Wrap;
+
+/// A table of heights. Entry (i, j) stands at u = (i + ½)/width, v = (j + ½)/height; row 0 is at
+/// v = 0, the bottom of the picture. Heights are in units of the side of a texel unless the user of
+/// the map scales them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightMap {
+    width: usize,
+    height: usize,
+    wrap: Wrap,
+    values: Vec<f64>,
+}
+
+impl HeightMap {
+    /// A table of `width · height` finite values, row by row from v = 0.
+    ///
+    /// # Panics
+    /// If a side is 0 or the number of values is not `width · height`.
+    pub fn new(width: usize, height: usize, wrap: Wrap, values: Vec<f64>) -> Self {
+        assert!(width > 0 && height > 0 && values.len() == width * height, "shape of a height map");
+        Self { width, height, wrap, values }
+    }
+
+    /// A table of `f(u, v)` at entry centres.
+    pub fn from_fn(
+        width: usize,
+        height: usize,
+        wrap: Wrap,
+        mut f: impl FnMut(f64, f64) -> f64,
+    ) -> Self {
+        let mut values = Vec::with_capacity(width * height);
+        for j in 0..height {
+            let v = (j as f64 + 0.5) / height as f64;
+            values.extend((0..width).map(|i| f((i as f64 + 0.5) / width as f64, v)));
+        }
+        Self::new(width, height, wrap, values)
+    }
+
+    /// Entries along u.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Entries along v.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// What lies beyond the edge.
+    pub fn wrap(&self) -> Wrap {
+        self.wrap
+    }
+
+    /// All values, row by row from v = 0.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The height at entry (i, j), which may lie outside.
+    pub fn at(&self, i: isize, j: isize) -> f64 {
+        let (i, j) = (self.wrap.index(i, self.width), self.wrap.index(j, self.height));
+        self.values[j * self.width + i]
+    }
+
+    /// [∂F/∂x, ∂F/∂y] at entry (i, j) in height units per texel, by central differences over one
+    /// texel either side: (F(i+1) − F(i−1)) / 2 (Blinn 1978 §3 with E = one cell). At a clamped edge
+    /// the difference is one-sided, over one texel.
+    pub fn gradient(&self, i: isize, j: isize) -> [f64; 2] {
+        let along = |k: isize, size: usize, read: &dyn Fn(isize) -> f64| {
+            let clamped = self.wrap == Wrap::Clamp;
+            let low = if clamped { (k - 1).max(0) } else { k - 1 };
+            let high = if clamped { (k + 1).min(size as isize - 1) } else { k + 1 };
+            if high == low { 0.0 } else { (read(high) - read(low)) / (high - low) as f64 }
+        };
+        [along(i, self.width, &|k| self.at(k, j)), along(j, self.height, &|k| self.at(i, k))]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gradients_of_a_slope() {
+        let map = HeightMap::from_fn(8, 4, Wrap::Clamp, |u, v| 3.0 * u * 8.0 - v * 4.0);
+        for (i, j) in [(0, 0), (3, 2), (7, 3)] {
+            let [x, y] = map.gradient(i, j);
+            assert!((x - 3.0).abs() < 1e-12 && (y + 1.0).abs() < 1e-12, "{i},{j}: {x} {y}");
+        }
+    }
+
+    #[test]
+    fn periodic_gradient_sees_across_the_seam() {
+        let map = HeightMap::new(4, 1, Wrap::Repeat, vec![0.0, 1.0, 0.0, -1.0]);
+        assert_eq!(map.gradient(0, 0), [1.0, 0.0]);
+        let one = HeightMap::new(1, 1, Wrap::Clamp, vec![5.0]);
+        assert_eq!(one.gradient(0, 0), [0.0, 0.0]);
+    }
+}

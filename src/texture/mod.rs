@@ -1,0 +1,13 @@
+//! Floor 1: what a bump map is made of. Height maps, normal maps, pyramids of moments, image files.
+
+mod footprint;
+mod height_map;
+mod normal_map;
+mod pyramid;
+mod wrap;
+
+pub use footprint::Footprint;
+pub use height_map::HeightMap;
+pub use normal_map::{Interpolation, MIN_COSINE, NormalMap, Texel};
+pub use pyramid::{Moments, Pyramid, downsample, level_sizes, tap_weights};
+pub use wrap::{Taps, Wrap};

@@ -1,0 +1,254 @@
+//! Normal maps.
+
+use serde::{Deserialize, Serialize};
+
+use super::{HeightMap, Taps, Wrap};
+
+/// Smallest z a normal may have where a *slope* is asked of it. A slope is n_xy / n_z; a normal at or
+/// below the horizon has none, so slopes are held to 64 (a tilt of 89.1°).
+pub const MIN_COSINE: f32 = 1.0 / 64.0;
+
+/// A normal and its weight: [x, y, z, w].
+///
+/// (x, y, z) is a unit normal in tangent space: x along +u, y along +v, z out of the surface. w ≥ 0 is
+/// the texel's *amplitude* (Fournier 1992 §3): the light it sends is w times its lobe. A map from an
+/// image has w = 1 everywhere; a map sampled from geometry seen from above has w = 1/z, so that
+/// surface area counts; w = 0 marks a texel where there is no surface.
+pub type Texel = [f32; 4];
+
+/// How normals between texel centres are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Interpolation {
+    /// Bilinear in the unit normals' coordinates and the weight, then normalised.
+    #[default]
+    Bilinear,
+    /// The texel's own normal over the whole texel: a mosaic of flat facets. What a filter that
+    /// counts texels assumes.
+    Nearest,
+}
+
+/// A map of unit normals with weights.
+///
+/// Texel (i, j) has its centre at u = (i + ½)/width, v = (j + ½)/height; row 0 is at v = 0, the
+/// *bottom* of the picture as image files show it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NormalMap {
+    width: usize,
+    height: usize,
+    wrap: Wrap,
+    interpolation: Interpolation,
+    texels: Vec<Texel>,
+}
+
+impl NormalMap {
+    /// A map from `width · height` texels, row by row from v = 0. Normals are brought to unit length
+    /// in double precision; one of length zero, or not finite, becomes (0, 0, 1). Weights that are
+    /// negative or not finite become 0.
+    ///
+    /// # Panics
+    /// If a side is 0 or the number of texels is not `width · height`: a programming error; loaders
+    /// check their input first.
+    pub fn new(width: usize, height: usize, wrap: Wrap, mut texels: Vec<Texel>) -> Self {
+        assert!(width > 0 && height > 0 && texels.len() == width * height, "shape of a normal map");
+        texels.iter_mut().for_each(|t| *t = unit(*t));
+        Self { width, height, wrap, interpolation: Interpolation::default(), texels }
+    }
+
+    /// A map of `width` × `height` texels whose normal at texel centre (u, v) is `f(u, v)` =
+    /// [x, y, z, w].
+    pub fn from_fn(
+        width: usize,
+        height: usize,
+        wrap: Wrap,
+        mut f: impl FnMut(f64, f64) -> [f64; 4],
+    ) -> Self {
+        let mut texels = Vec::with_capacity(width * height);
+        for j in 0..height {
+            let v = (j as f64 + 0.5) / height as f64;
+            texels.extend((0..width).map(|i| {
+                let u = (i as f64 + 0.5) / width as f64;
+                f(u, v).map(|c| c as f32)
+            }));
+        }
+        Self::new(width, height, wrap, texels)
+    }
+
+    /// The normals of a height map by central differences over one texel either side (Blinn 1978 §3),
+    /// with heights in units of the texel's side times `scale`.
+    pub fn from_heights(heights: &HeightMap, scale: f64) -> Self {
+        let (width, height) = (heights.width(), heights.height());
+        let mut texels = Vec::with_capacity(width * height);
+        for j in 0..height as isize {
+            texels.extend((0..width as isize).map(|i| {
+                let [fu, fv] = heights.gradient(i, j).map(|d| (d * scale) as f32);
+                [-fu, -fv, 1.0, 1.0]
+            }));
+        }
+        Self::new(width, height, heights.wrap(), texels)
+    }
+
+    /// The same map, its normals between texels found by `interpolation`.
+    pub fn with_interpolation(mut self, interpolation: Interpolation) -> Self {
+        self.interpolation = interpolation;
+        self
+    }
+
+    /// Texels along u.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Texels along v.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// What lies beyond the edge.
+    pub fn wrap(&self) -> Wrap {
+        self.wrap
+    }
+
+    /// How normals between texel centres are found.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
+    /// All texels, row by row from v = 0.
+    pub fn texels(&self) -> &[Texel] {
+        &self.texels
+    }
+
+    /// Texel (i, j); both must be inside.
+    #[inline(always)]
+    pub fn texel(&self, i: usize, j: usize) -> Texel {
+        self.texels[j * self.width + i]
+    }
+
+    /// The normal and weight at folded texture coordinates (see [`Wrap::fold`]). The normal is *not*
+    /// brought to unit length: shading needs its direction alone.
+    #[inline(always)]
+    pub fn sample(&self, u: f32, v: f32) -> Texel {
+        let (across, along) = (self.wrap.taps(u, self.width), self.wrap.taps(v, self.height));
+        match self.interpolation {
+            Interpolation::Bilinear => {
+                bilinear(across, along, |i, j| self.texels[j * self.width + i])
+            }
+            Interpolation::Nearest => {
+                let pick = |t: Taps| if t.blend < 0.5 { t.first } else { t.second };
+                self.texel(pick(across), pick(along))
+            }
+        }
+    }
+
+    /// How many texels lean so far (z below [`MIN_COSINE`]) that their slope is held; methods that
+    /// work in slopes misread these.
+    pub fn below_horizon(&self) -> usize {
+        self.texels.iter().filter(|t| t[2] < MIN_COSINE && t[3] > 0.0).count()
+    }
+
+    /// The map turned by 90° counter-clockwise about its centre: normals and positions alike.
+    pub fn rotated(&self) -> Self {
+        let (width, height) = (self.height, self.width);
+        let mut texels = vec![[0.0; 4]; width * height];
+        for (k, &[x, y, z, w]) in self.texels.iter().enumerate() {
+            let (i, j) = (k % self.width, k / self.width);
+            texels[i * width + (width - 1 - j)] = [-y, x, z, w];
+        }
+        Self { width, height, wrap: self.wrap, interpolation: self.interpolation, texels }
+    }
+
+    /// The map with every slope multiplied by `factor` (its bumps that much higher).
+    pub fn scaled(&self, factor: f32) -> Self {
+        let scale = |&[x, y, z, w]: &Texel| unit([x * factor, y * factor, z, w]);
+        Self { texels: self.texels.iter().map(scale).collect(), ..self.clone() }
+    }
+}
+
+/// The weighted sum of four values around a point, channel by channel.
+#[inline(always)]
+pub(super) fn bilinear<const C: usize>(
+    across: Taps,
+    along: Taps,
+    read: impl Fn(usize, usize) -> [f32; C],
+) -> [f32; C] {
+    let (a, b) = (read(across.first, along.first), read(across.second, along.first));
+    let (c, d) = (read(across.first, along.second), read(across.second, along.second));
+    let mut out = [0.0; C];
+    for k in 0..C {
+        let low = a[k] + across.blend * (b[k] - a[k]);
+        let high = c[k] + across.blend * (d[k] - c[k]);
+        out[k] = low + along.blend * (high - low);
+    }
+    out
+}
+
+/// The texel with its normal at unit length; (0, 0, 1) where it has no direction.
+fn unit([x, y, z, w]: Texel) -> Texel {
+    let (dx, dy, dz) = (f64::from(x), f64::from(y), f64::from(z));
+    let length = (dx * dx + dy * dy + dz * dz).sqrt();
+    let weight = if w.is_finite() && w > 0.0 { w } else { 0.0 };
+    if length.is_finite() && length > 0.0 {
+        [(dx / length) as f32, (dy / length) as f32, (dz / length) as f32, weight]
+    } else {
+        [0.0, 0.0, 1.0, weight]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp() -> NormalMap {
+        NormalMap::from_fn(5, 3, Wrap::Repeat, |u, v| [u, v - 0.5, 1.0, 1.0 + u])
+    }
+
+    #[test]
+    fn a_texel_centre_gives_that_texel() {
+        for interpolation in [Interpolation::Bilinear, Interpolation::Nearest] {
+            let map = ramp().with_interpolation(interpolation);
+            for j in 0..3 {
+                for i in 0..5 {
+                    let got = map.sample((i as f32 + 0.5) / 5.0, (j as f32 + 0.5) / 3.0);
+                    let want = map.texel(i, j);
+                    for c in 0..4 {
+                        assert!((got[c] - want[c]).abs() < 1e-5, "{i},{j}: {got:?} {want:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn four_quarter_turns_are_none() {
+        let map = ramp();
+        assert_eq!(map.rotated().rotated().rotated().rotated(), map);
+        assert_eq!((map.rotated().width(), map.rotated().height()), (3, 5));
+    }
+
+    #[test]
+    fn a_quarter_turn_carries_the_picture() {
+        // What stood at the right (u near 1) leaning right stands at the top leaning up.
+        let mut texels = vec![[0.0, 0.0, 1.0, 1.0]; 16];
+        texels[4 + 3] = [0.6, 0.0, 0.8, 1.0]; // i = 3, j = 1
+        let turned = NormalMap::new(4, 4, Wrap::Repeat, texels).rotated();
+        assert_eq!(turned.texel(2, 3), [0.0, 0.6, 0.8, 1.0]);
+    }
+
+    #[test]
+    fn what_has_no_direction_becomes_flat() {
+        let bad = vec![[0.0, 0.0, 0.0, 1.0], [f32::NAN, 0.0, 1.0, f32::NAN]];
+        let map = NormalMap::new(2, 1, Wrap::Clamp, bad);
+        assert_eq!(map.texels(), [[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 0.0]]);
+    }
+
+    #[test]
+    fn heights_lean_away_from_the_rise() {
+        // F = x: slope 1, the normal leans towards −x by 45°.
+        let heights = HeightMap::new(4, 1, Wrap::Clamp, vec![0.0, 1.0, 2.0, 3.0]);
+        let map = NormalMap::from_heights(&heights, 1.0);
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        assert!((map.texel(1, 0)[0] + half).abs() < 1e-6);
+        assert!((map.texel(1, 0)[2] - half).abs() < 1e-6);
+    }
+}
