@@ -19,6 +19,9 @@ mod sweep;
 mod texture;
 mod values;
 
+#[cfg(test)]
+mod tests;
+
 use std::path::Path;
 
 use toml::de::DeTable;
