@@ -6,8 +6,10 @@
 
 mod averaged;
 mod batch;
+mod olano_north;
 mod one_lobe;
 mod registry;
+mod schilling;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
@@ -32,6 +34,11 @@ pub struct Card {
     /// Whether its lobes keep the energy of the footprint (see [`crate::lobe`]); false for forms
     /// printed without a normalisation.
     pub normalised: bool,
+    /// Whether bumps that fall into one footprint widen its lobes.
+    pub keeps_roughness: bool,
+    /// How exactly its numbers hold what it claims (energy, variance), as a relative error: rounding
+    /// for closed forms, the stopping rule for fits.
+    pub precision: f64,
 }
 
 /// Why a method does not take a base lobe, as a sentence for the report's empty cell.
