@@ -13,7 +13,7 @@ mod schilling;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
-pub use registry::{Entry, build, entries, find};
+pub use registry::{Entry, brute_force, build, entries, find};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
 use crate::texture::{Footprint, NormalMap};

@@ -30,3 +30,8 @@ pub fn find(name: &str) -> Option<Entry> {
 pub fn build(name: &str) -> Option<Box<dyn Method>> {
     find(name).map(|entry| (entry.build)(&Values::defaults(entry.parameters)))
 }
+
+/// The method that, with many samples a pixel, is the supersampled truth.
+pub fn brute_force() -> Box<dyn Method> {
+    Box::new(unfiltered::Unfiltered)
+}

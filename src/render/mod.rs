@@ -2,6 +2,7 @@
 
 mod camera;
 mod film;
+mod probe;
 mod reference;
 mod renderer;
 mod sampler;
@@ -9,7 +10,8 @@ mod view;
 
 pub use camera::{Camera, direction};
 pub use film::Film;
-pub use reference::{Converged, converge};
+pub use probe::true_distribution;
+pub use reference::{Converged, average};
 pub use renderer::{Cancelled, render};
 pub use sampler::{PixelSampler, stream};
 pub use view::View;

@@ -1,7 +1,6 @@
 //! The converged reference: brute force, with its own error.
 
-use super::{Cancelled, Film, PixelSampler, View, render};
-use crate::method::Prefiltered;
+use super::Film;
 
 /// A converged image and how far from converged it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,41 +16,36 @@ pub struct Converged {
     pub rmse: f64,
 }
 
-/// Renders `replicates` ≥ 2 independent images of `spp / replicates` samples a pixel each and takes
-/// their mean. `advance` is told after each how many are done.
+/// The mean of at least two independent images of one size, with `spp` samples a pixel in all.
 ///
-/// # Errors
-/// [`Cancelled`] if `cancelled` says so.
-pub fn converge(
-    view: &View,
-    unfiltered: &dyn Prefiltered,
-    spp: u32,
-    replicates: u32,
-    seed: u64,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    advance: &dyn Fn(u32),
-) -> Result<Converged, Cancelled> {
-    let sampler = PixelSampler::new(spp / replicates);
-    let films = (0..replicates)
-        .map(|replicate| {
-            // Replicate 0 belongs to the trials; the reference shares no random number with them.
-            let film = render(view, unfiltered, &sampler, seed, replicate + 1, cancelled)?;
-            advance(replicate + 1);
-            Ok(film)
-        })
-        .collect::<Result<Vec<Film>, Cancelled>>()?;
-    let count = f64::from(replicates);
-    let pixel_count = films[0].pixels().len();
-    let mut mean = Vec::with_capacity(pixel_count);
+/// # Panics
+/// If there are fewer than two: a programming error, as one image says nothing of its own error.
+pub fn average(replicates: &[Film], spp: u32) -> Converged {
+    assert!(replicates.len() >= 2, "replicates of a reference");
+    let (count, first) = (replicates.len() as f64, &replicates[0]);
+    let mut mean = Vec::with_capacity(first.pixels().len());
     let mut variance_sum = 0.0;
-    for i in 0..pixel_count {
-        let values = || films.iter().map(|film| f64::from(film.pixels()[i]));
+    for i in 0..first.pixels().len() {
+        let values = || replicates.iter().map(|film| f64::from(film.pixels()[i]));
         let average = values().sum::<f64>() / count;
         let scatter = values().map(|r| (r - average) * (r - average)).sum::<f64>();
         variance_sum += scatter / (count * (count - 1.0));
         mean.push(average as f32);
     }
-    let rmse = (variance_sum / pixel_count as f64).sqrt();
-    let film = Film::new(films[0].width(), films[0].height(), mean);
-    Ok(Converged { film, spp, rmse })
+    let rmse = (variance_sum / mean.len() as f64).sqrt();
+    Converged { film: Film::new(first.width(), first.height(), mean), spp, rmse }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_is_the_standard_error_of_the_mean() {
+        let films = [1.0, 2.0, 3.0, 6.0].map(|value| Film::new(1, 1, vec![value]));
+        let converged = average(&films, 64);
+        assert_eq!(converged.film.pixels(), [3.0]);
+        // Σ (r − 3)² = 14, over 4 · 3.
+        assert!((converged.rmse - (14.0f64 / 12.0).sqrt()).abs() < 1e-12);
+    }
 }

@@ -35,6 +35,9 @@ pub trait Surface: Copy + Send + Sync + std::fmt::Debug {
     /// for the map's `aspect` = height/width in texels, so that texels stay square). A surface that
     /// closes on itself takes the nearest tiling that fits.
     fn tiled(&self, tiles: f64, aspect: f64) -> Self;
+
+    /// Tiles per scene unit along u, as they are.
+    fn tiles_across(&self) -> f64;
 }
 
 /// Any surface. The renderer chooses once a batch, so that its inner loop knows the kind.
@@ -68,6 +71,14 @@ impl Shape {
         match self {
             Self::Plane(plane) => Self::Plane(plane.tiled(tiles, aspect)),
             Self::Sphere(sphere) => Self::Sphere(sphere.tiled(tiles, aspect)),
+        }
+    }
+
+    /// See [`Surface::tiles_across`].
+    pub fn tiles_across(&self) -> f64 {
+        match self {
+            Self::Plane(plane) => plane.tiles_across(),
+            Self::Sphere(sphere) => sphere.tiles_across(),
         }
     }
 }

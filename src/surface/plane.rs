@@ -45,4 +45,7 @@ impl Surface for Plane {
     fn tiled(&self, tiles: f64, aspect: f64) -> Self {
         Self { tiles: [tiles, tiles / aspect] }
     }
+    fn tiles_across(&self) -> f64 {
+        self.tiles[0]
+    }
 }

@@ -67,4 +67,7 @@ impl Surface for Sphere {
         let around = (tiles * TAU).round().max(1.0);
         Self { tiles: [around, 0.5 * around / aspect] }
     }
+    fn tiles_across(&self) -> f64 {
+        self.tiles[0] / TAU
+    }
 }
