@@ -6,6 +6,7 @@
 
 mod averaged;
 mod batch;
+pub mod fournier;
 mod one_lobe;
 mod registry;
 mod unfiltered;

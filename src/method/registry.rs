@@ -1,6 +1,6 @@
 //! The list of methods. A new one is a file and a line here.
 
-use super::{Card, Method, averaged, unfiltered};
+use super::{Card, Method, averaged, fournier, unfiltered};
 use crate::parameter::{Parameter, Values};
 
 /// A method the program knows: what it is, what it takes, how to make one.
@@ -15,7 +15,7 @@ pub struct Entry {
 
 /// Every method, in the order reports show them.
 pub fn entries() -> Vec<Entry> {
-    vec![unfiltered::entry(), averaged::entry()]
+    vec![unfiltered::entry(), averaged::entry(), fournier::entry()]
 }
 
 /// The method of this name.
