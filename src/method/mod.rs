@@ -6,6 +6,7 @@
 
 mod averaged;
 mod batch;
+pub mod fournier;
 mod olano_north;
 mod one_lobe;
 mod registry;

@@ -1,6 +1,6 @@
 //! The list of methods. A new one is a file and a line here.
 
-use super::{Card, Method, averaged, olano_north, schilling, unfiltered};
+use super::{Card, Method, averaged, fournier, olano_north, schilling, unfiltered};
 use crate::parameter::{Parameter, Values};
 
 /// A method the program knows: what it is, what it takes, how to make one.
@@ -15,7 +15,7 @@ pub struct Entry {
 
 /// Every method, in the order reports show them.
 pub fn entries() -> Vec<Entry> {
-    let mut all = vec![unfiltered::entry(), averaged::entry()];
+    let mut all = vec![unfiltered::entry(), averaged::entry(), fournier::entry()];
     all.extend(schilling::entries());
     all.extend(olano_north::entries());
     all
