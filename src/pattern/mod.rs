@@ -1,5 +1,14 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
+mod cylinders;
+mod flat;
+mod gaussian;
+mod hemispheres;
+mod spectrum;
+mod twill;
+mod view;
+mod waves;
+
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
 
@@ -38,7 +47,14 @@ pub struct Bumps {
 
 /// Every pattern, in the order lists show them.
 pub fn entries() -> Vec<Entry> {
-    vec![]
+    vec![
+        flat::ENTRY,
+        hemispheres::ENTRY,
+        cylinders::ENTRY,
+        twill::ENTRY,
+        waves::ENTRY,
+        gaussian::ENTRY,
+    ]
 }
 
 /// The pattern of this name.

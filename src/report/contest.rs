@@ -1,0 +1,214 @@
+//! Results arranged for comparison: settings, scales, and in each scene who came closest.
+
+use super::equivalent::{Equivalent, equivalent_samples};
+use super::phrase;
+use crate::experiment::results::{MethodInfo, Results, SceneKey, SceneResult};
+use crate::geometry::elementary::{exp64, ln64};
+
+/// The metric that decides: root mean square error against the reference.
+pub const DECIDES: &str = "rmse";
+/// The registry's name of the method that is brute force when given many samples.
+const BRUTE_FORCE: &str = "unfiltered";
+
+/// One method in one scene, at the fewest samples a pixel that the experiment used.
+pub struct Standing<'a> {
+    /// The method.
+    pub method: &'a MethodInfo,
+    /// Its RMSE.
+    pub error: f64,
+    /// What that is worth in unfiltered samples; `None` if there is no brute-force curve.
+    pub worth: Option<Equivalent>,
+    /// Whether nothing is closer by twice the reference's own error or more.
+    pub best: bool,
+}
+
+/// All methods in one scene.
+pub struct Contest<'a> {
+    /// The scene.
+    pub scene: &'a SceneResult,
+    /// Who was measured, in the order of the spec.
+    pub standings: Vec<Standing<'a>>,
+}
+
+impl<'a> Contest<'a> {
+    fn of(results: &'a Results, scene: &'a SceneResult, spp: u32) -> Self {
+        let curve = brute_force_curve(results, scene);
+        let measured = results.methods.iter().filter_map(|method| {
+            let trial = scene.trials.iter().find(|t| t.method == method.label && t.spp == spp)?;
+            let error = trial.score(DECIDES).filter(|e| e.is_finite())?;
+            Some(Standing { method, error, worth: equivalent_samples(&curve, error), best: false })
+        });
+        let mut standings: Vec<_> = measured.collect();
+        let least = standings.iter().map(|s| s.error).fold(f64::INFINITY, f64::min);
+        for standing in &mut standings {
+            let gap = standing.error - least;
+            standing.best = gap == 0.0 || gap < 2.0 * scene.reference.rmse;
+        }
+        Self { scene, standings }
+    }
+
+    /// The methods that came closest: one, or all that tie.
+    pub fn winners(&self) -> impl Iterator<Item = &Standing<'a>> {
+        self.standings.iter().filter(|s| s.best)
+    }
+
+    /// The least error among the methods that did not come closest, and whose it is.
+    pub fn runner_up(&self) -> Option<&Standing<'a>> {
+        self.standings.iter().filter(|s| !s.best).min_by(|a, b| a.error.total_cmp(&b.error))
+    }
+
+    /// The standing of a method.
+    pub fn standing(&self, label: &str) -> Option<&Standing<'a>> {
+        self.standings.iter().find(|s| s.method.label == label)
+    }
+}
+
+/// Scenes that differ in texture and scale only.
+pub struct Setting<'a> {
+    /// Surface, light, base lobe and shading, in words.
+    pub name: String,
+    /// Its scales, in words, from fine to coarse.
+    pub scales: Vec<String>,
+    /// One a scene, in the order of the results.
+    pub contests: Vec<Contest<'a>>,
+}
+
+impl<'a> Setting<'a> {
+    /// The scenes of one scale.
+    pub fn at<'b>(&'b self, scale: &'b str) -> impl Iterator<Item = &'b Contest<'a>> {
+        self.contests.iter().filter(move |c| scale_of(&c.scene.key) == scale)
+    }
+
+    /// The texture names, in the order of first appearance.
+    pub fn textures(&self) -> Vec<&'a str> {
+        unique(self.contests.iter().map(|c| c.scene.key.texture.as_str()))
+    }
+}
+
+/// The whole experiment, arranged.
+pub struct Comparison<'a> {
+    /// What is arranged.
+    pub results: &'a Results,
+    /// Samples a pixel at which methods are compared: the fewest that any trial used.
+    pub spp: u32,
+    /// Settings in the order of the results.
+    pub settings: Vec<Setting<'a>>,
+}
+
+impl<'a> Comparison<'a> {
+    /// Arranges results.
+    pub fn of(results: &'a Results) -> Self {
+        let counts = results.scenes.iter().flat_map(|s| s.trials.iter().map(|t| t.spp));
+        let spp = counts.min().unwrap_or(1);
+        let settings = unique(results.scenes.iter().map(|s| setting_name(&s.key)))
+            .into_iter()
+            .map(|name| setting(results, name, spp))
+            .collect();
+        Self { results, spp, settings }
+    }
+
+    /// Every contest in which at least one method was measured.
+    pub fn contests(&self) -> impl Iterator<Item = &Contest<'a>> + Clone {
+        self.settings.iter().flat_map(|s| &s.contests).filter(|c| !c.standings.is_empty())
+    }
+
+    /// The brute-force method, if the experiment has it.
+    pub fn brute_force(&self) -> Option<&'a MethodInfo> {
+        self.results.methods.iter().find(|m| m.name == BRUTE_FORCE)
+    }
+}
+
+fn setting<'a>(results: &'a Results, name: String, spp: u32) -> Setting<'a> {
+    let mut scenes: Vec<&SceneResult> =
+        results.scenes.iter().filter(|s| setting_name(&s.key) == name).collect();
+    let contests = scenes.iter().map(|scene| Contest::of(results, scene, spp)).collect();
+    scenes.sort_by(|a, b| a.key.texels_per_pixel.total_cmp(&b.key.texels_per_pixel));
+    Setting { name, scales: unique(scenes.iter().map(|s| scale_of(&s.key))), contests }
+}
+
+/// The scale of a scene in words, to three digits: scenes with the same words are compared.
+pub fn scale_of(key: &SceneKey) -> String {
+    phrase::scale(key.texels_per_pixel)
+}
+
+/// Surface, light, base lobe and shading of a scene, in words.
+pub fn setting_name(key: &SceneKey) -> String {
+    let parameter = if key.lobe == "blinn-phong" { "exponent" } else { "α" };
+    format!(
+        "{}, {} light, {} lobe with {parameter} {}, {} shading",
+        key.surface,
+        key.light,
+        key.lobe,
+        phrase::scale(key.parameter),
+        key.shading
+    )
+}
+
+/// (samples a pixel, RMSE) of the brute-force method, in rising order.
+pub fn brute_force_curve(results: &Results, scene: &SceneResult) -> Vec<(u32, f64)> {
+    let label = results.methods.iter().find(|m| m.name == BRUTE_FORCE).map(|m| m.label.as_str());
+    label.map_or_else(Vec::new, |label| curve(scene, label))
+}
+
+/// (samples a pixel, RMSE) of one method in one scene, in rising order.
+pub fn curve(scene: &SceneResult, label: &str) -> Vec<(u32, f64)> {
+    let of_method = scene.trials.iter().filter(|t| t.method == label);
+    let scored = of_method.filter_map(|t| Some((t.spp, t.score(DECIDES)?)));
+    let mut curve: Vec<_> = scored.filter(|(_, error)| error.is_finite()).collect();
+    curve.sort_by_key(|&(spp, _)| spp);
+    curve
+}
+
+/// Items without repeats, in the order of first appearance.
+pub fn unique<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut seen = Vec::new();
+    for item in items {
+        if !seen.contains(&item) {
+            seen.push(item);
+        }
+    }
+    seen
+}
+
+/// Geometric mean of the positive values; `None` if there are none.
+pub fn geometric_mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let logs: Vec<f64> = values.filter(|v| *v > 0.0 && v.is_finite()).map(ln64).collect();
+    (!logs.is_empty()).then(|| exp64(logs.iter().sum::<f64>() / logs.len() as f64))
+}
+
+/// The middle value; the lower one of two.
+pub fn median<T: Copy>(mut values: Vec<T>, key: impl Fn(T) -> f64) -> Option<T> {
+    values.sort_by(|a, b| key(*a).total_cmp(&key(*b)));
+    values.get(values.len().saturating_sub(1) / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture;
+
+    #[test]
+    fn a_gap_under_twice_the_reference_error_is_a_tie() {
+        let mut results = fixture::results();
+        let label = |c: &Contest| c.winners().map(|s| s.method.label.clone()).collect::<Vec<_>>();
+        let comparison = Comparison::of(&results);
+        let alone = label(comparison.contests().next().unwrap());
+        assert_eq!(alone.len(), 1);
+        for scene in &mut results.scenes {
+            scene.reference.rmse = 10.0;
+        }
+        let comparison = Comparison::of(&results);
+        let first = comparison.contests().next().unwrap();
+        assert_eq!(label(first).len(), first.standings.len());
+        assert!(first.runner_up().is_none());
+    }
+
+    #[test]
+    fn means_and_medians() {
+        let mean = geometric_mean([1.0, 4.0, 0.0, 16.0].into_iter()).unwrap();
+        assert!((mean - 4.0).abs() < 1e-12);
+        assert_eq!(geometric_mean([0.0].into_iter()), None);
+        assert_eq!(median(vec![3.0, 1.0, 2.0, 9.0], |v| v), Some(2.0));
+        assert_eq!(median(Vec::<f64>::new(), |v| v), None);
+    }
+}

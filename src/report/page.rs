@@ -1,0 +1,164 @@
+//! What a report shows, in the order it shows it; the templates turn it into Markdown and HTML.
+
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::Serde;
+use minijinja::{AutoEscape, Environment, context};
+use serde::Serialize;
+
+use super::answer::{Answer, answer};
+use super::contest::{Comparison, unique};
+use super::tables::{self, Table};
+use super::words;
+use crate::experiment::results::{MethodInfo, Results, TextureInfo};
+
+/// A report before it is set.
+#[derive(Serialize)]
+pub struct Page<'a> {
+    name: &'a str,
+    title: &'a str,
+    question: &'a str,
+    answer: Answer,
+    ranking: Table,
+    settings: Vec<SettingTables>,
+    others: Option<Table>,
+    methods: &'a [MethodInfo],
+    textures: &'a [TextureInfo],
+    shadings: Vec<Definition<'a>>,
+    metrics: Vec<Definition<'a>>,
+    spec: &'a str,
+    seed: u64,
+}
+
+/// The tables of one setting.
+#[derive(Serialize)]
+struct SettingTables {
+    name: String,
+    tables: Vec<Table>,
+}
+
+/// A word and what it means.
+#[derive(Serialize)]
+struct Definition<'a> {
+    word: &'a str,
+    meaning: &'static str,
+}
+
+impl<'a> Page<'a> {
+    /// The report on these results.
+    pub fn of(results: &'a Results) -> Self {
+        let comparison = Comparison::of(results);
+        let settings = comparison.settings.iter().map(|setting| SettingTables {
+            name: setting.name.clone(),
+            tables: setting
+                .scales
+                .iter()
+                .map(|s| tables::at_scale(&comparison, setting, s))
+                .collect(),
+        });
+        Self {
+            name: &results.name,
+            title: &results.title,
+            question: &results.question,
+            answer: answer(&comparison),
+            ranking: tables::ranking(&comparison),
+            settings: settings.collect(),
+            others: tables::other_metrics(&comparison),
+            methods: &results.methods,
+            textures: &results.textures,
+            shadings: shadings(results),
+            metrics: metrics(results),
+            spec: &results.spec,
+            seed: results.seed,
+        }
+    }
+}
+
+fn shadings(results: &Results) -> Vec<Definition<'_>> {
+    let names = unique(results.scenes.iter().map(|s| s.key.shading.as_str()));
+    let define = |word| Definition { word, meaning: words::shading_formula(word) };
+    names.into_iter().map(define).collect()
+}
+
+fn metrics(results: &Results) -> Vec<Definition<'_>> {
+    let scores = results.scenes.iter().flat_map(|s| &s.trials).flat_map(|t| &t.scores);
+    let probed = results.scenes.iter().any(|s| !s.probes.is_empty()).then_some("ndf_l1");
+    let names = unique(scores.map(|s| s.metric.as_str()).chain(probed));
+    let define = |word| Some(Definition { word, meaning: words::metric_formula(word)? });
+    names.into_iter().filter_map(define).collect()
+}
+
+/// `report.md`.
+pub fn markdown(page: &Page) -> String {
+    render("report.md", context! { page => Serde(page) })
+}
+
+/// `costs.md`.
+pub fn costs(title: &str, intro: &str, tables: &[Table]) -> String {
+    render("costs.md", context! { title, intro, tables => Serde(tables) })
+}
+
+fn render(template: &str, context: minijinja::Value) -> String {
+    let environment = environment();
+    let found = environment.get_template(template).expect("the template is compiled in");
+    found.render(context).expect("templates use only what they are given; tests render each")
+}
+
+fn environment() -> Environment<'static> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|name| {
+        if name.ends_with(".html") { AutoEscape::Html } else { AutoEscape::None }
+    });
+    let mut syntax = SyntaxConfig::builder();
+    syntax.trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true);
+    environment.set_syntax(syntax.build().expect("only the handling of whitespace is changed"));
+    environment.add_filter("plain", plain);
+    for (name, source) in [
+        ("table.md", include_str!("templates/table.md")),
+        ("report.md", include_str!("templates/report.md")),
+        ("costs.md", include_str!("templates/costs.md")),
+    ] {
+        environment
+            .add_template(name, source)
+            .expect("the template is compiled in; tests parse it");
+    }
+    environment
+}
+
+/// Text that Markdown takes as it stands: nothing in it is markup, and it stays on one line.
+fn plain(text: String) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\\' | '|' | '*' | '`' | '[' | ']' | '#' | '_' => out.extend(['\\', c]),
+            '<' => out.push_str("&lt;"),
+            '&' => out.push_str("&amp;"),
+            '\n' | '\r' => out.push(' '),
+            _ => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture;
+
+    #[test]
+    fn the_markdown_report() {
+        insta::assert_snapshot!(markdown(&Page::of(&fixture::results())));
+    }
+
+    #[test]
+    fn names_are_never_markup() {
+        assert_eq!(plain("a|b <script>\n*x*".into()), "a\\|b &lt;script> \\*x\\*");
+    }
+
+    #[test]
+    fn an_empty_experiment_has_a_report() {
+        let mut results = fixture::results();
+        results.scenes.clear();
+        results.textures.clear();
+        assert!(markdown(&Page::of(&results)).contains("Nothing was measured"));
+    }
+}
