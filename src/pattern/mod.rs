@@ -1,6 +1,7 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
 mod cylinders;
+pub mod file;
 mod flat;
 mod gaussian;
 mod hemispheres;
