@@ -1,7 +1,5 @@
 //! From a spec to entities: the author of the world.
 
-use std::sync::Arc;
-
 use bevy_ecs::prelude::*;
 
 use super::spec::{LightSpec, Reading as ReadingSpec, Scale, Shape as ShapeSpec, Spec, TextureSource, TextureSpec};

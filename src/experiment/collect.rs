@@ -168,7 +168,7 @@ pub(super) fn named_scores(scores: &Scores) -> Vec<Score> {
 
 /// Scores read back, for the metrics that still exist.
 pub(super) fn known_scores(scores: &[Score]) -> Scores {
-    let known = |score: &Score| metric::name(&score.metric).map(|name| (name, score.value));
+    let known = |score: &Score| metric::find(&score.metric).map(|found| (found.name, score.value));
     Scores(scores.iter().filter_map(known).collect())
 }
 

@@ -134,11 +134,9 @@ struct Run<'a> {
 impl Run<'_> {
     fn announce(&mut self) {
         let scenes = &self.plan.scenes;
-        (self.watch)(RunEvent::Started {
-            work: scenes.iter().map(|s| self.work_of_scene(s)).sum(),
-            scenes: scenes.len(),
-            trials: scenes.iter().map(|s| s.trials.len()).sum(),
-        });
+        let work = scenes.iter().map(|scene| self.work_of_scene(scene)).sum();
+        let trials = scenes.iter().map(|scene| scene.trials.len()).sum();
+        (self.watch)(RunEvent::Started { work, scenes: scenes.len(), trials });
     }
 
     /// Works at one scene until it is done (true) or the run is halted (false).
@@ -151,7 +149,8 @@ impl Run<'_> {
             return Ok(true);
         }
         loop {
-            (self.watch)(RunEvent::Working { what: self.next_piece(scene) });
+            let what = self.next_piece(scene);
+            (self.watch)(RunEvent::Working { what });
             let done = self.stage.tick();
             if let Some(source) = self.stage.world.resource_mut::<Failure>().0.take() {
                 let texture = self.spec.sweep.textures[scene.texture].name.clone();
