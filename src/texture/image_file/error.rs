@@ -34,7 +34,7 @@ pub enum ImageError {
         path: PathBuf,
     },
     /// It is whole, but uses something the decoder does not know.
-    #[error("{}: {what} is not supported; save it again as PNG, or as EXR with ZIP compression and \
+    #[error("{}: this kind of file is not supported ({what}); save it again as PNG, or as EXR with ZIP compression and \
              R, G and B channels", path.display())]
     Unsupported {
         /// The file.

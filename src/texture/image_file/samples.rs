@@ -131,20 +131,32 @@ fn flipped<T: Copy>(
 }
 
 fn format_of(path: &Path, file: &mut BufReader<File>) -> Result<ImageFormat, ImageError> {
-    let mut start = Vec::new();
-    let read = file.by_ref().take(64).read_to_end(&mut start).and_then(|_| file.rewind());
-    read.map_err(|e| ImageError::reading(path, e))?;
+    use ImageFormat::{OpenExr, Png, Tiff, WebP};
+    let start = first_bytes(file).map_err(|e| ImageError::reading(path, e))?;
+    let length = file.get_ref().metadata().map_err(|e| ImageError::reading(path, e))?.len();
     let path = path.to_owned();
     match image::guess_format(&start) {
         _ if start.is_empty() => Err(ImageError::Empty { path }),
-        Ok(
-            format @ (ImageFormat::Png
-            | ImageFormat::Tiff
-            | ImageFormat::WebP
-            | ImageFormat::OpenExr),
-        ) => Ok(format),
+        // A decoder takes the missing part of a WebP for damage; its first bytes tell its length.
+        Ok(WebP) if riff_length(&start).is_some_and(|whole| length < whole) => {
+            Err(ImageError::Truncated { path })
+        }
+        Ok(format @ (Png | Tiff | WebP | OpenExr)) => Ok(format),
         _ => Err(ImageError::UnknownFormat { path }),
     }
+}
+
+fn first_bytes(file: &mut BufReader<File>) -> std::io::Result<Vec<u8>> {
+    let mut start = Vec::new();
+    file.by_ref().take(64).read_to_end(&mut start)?;
+    file.rewind()?;
+    Ok(start)
+}
+
+/// The length a RIFF file says it has, bytes.
+fn riff_length(start: &[u8]) -> Option<u64> {
+    let field = start.get(4..8)?.try_into().ok()?;
+    Some(8 + u64::from(u32::from_le_bytes(field)))
 }
 
 fn name_of(format: ImageFormat) -> &'static str {
