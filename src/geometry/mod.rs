@@ -4,9 +4,11 @@
 pub mod elementary;
 mod frame;
 mod hemisphere;
+mod simd;
 
 pub use frame::Frame;
 pub use hemisphere::{HemisphereGrid, Sample};
+pub use simd::{Kernel, vectorised};
 
 /// A vector or point in double precision; which space it lives in is said where it is used.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -80,16 +80,23 @@ impl Facet {
         let (x, y) = (dot(d, self.tangent), dot(d, self.bitangent));
         let alpha_tan_squared =
             quadratic(self.alpha_squared, x, y).max(0.0) / (cos * cos).max(f32::MIN_POSITIVE);
-        if self.ggx {
-            2.0 / (1.0 + (1.0 + alpha_tan_squared).sqrt())
-        } else {
-            let a = 1.0 / alpha_tan_squared.sqrt().max(f32::MIN_POSITIVE);
-            let held = a.min(1.6);
-            let fit =
-                (3.535 * held + 2.181 * held * held) / (1.0 + 2.276 * held + 2.577 * held * held);
-            if a < 1.6 { fit } else { 1.0 }
-        }
+        if self.ggx { smith_ggx(alpha_tan_squared) } else { smith_beckmann(alpha_tan_squared) }
     }
+}
+
+/// Smith's G₁ of GGX where α² tan² is `a`.
+#[inline(always)]
+pub(super) fn smith_ggx(a: f32) -> f32 {
+    2.0 / (1.0 + (1.0 + a).sqrt())
+}
+
+/// Smith's G₁ of Beckmann where α² tan² is `a`, by the rational fit of Walter et al. 2007.
+#[inline(always)]
+pub(super) fn smith_beckmann(a: f32) -> f32 {
+    let cotangent = 1.0 / a.sqrt().max(f32::MIN_POSITIVE);
+    let c = cotangent.min(1.6);
+    let fit = (3.535 * c + 2.181 * c * c) / (1.0 + 2.276 * c + 2.577 * c * c);
+    if cotangent < 1.6 { fit } else { 1.0 }
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod multiple_surface;
 mod peak;
 mod pearson;
 mod pedal;
+pub mod round;
 pub mod vector;
 
 pub use base::BaseLobe;

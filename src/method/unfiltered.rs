@@ -3,9 +3,14 @@
 use std::sync::Arc;
 
 use super::one_lobe::unfiltered_lobe;
-use super::{Batch, Card, Entry, Lane, Method, PrefilterError, Prefiltered, Progress, Refusal};
-use crate::lobe::{BaseLobe, MultipleSurface, Shading, Spread};
-use crate::texture::{Footprint, NormalMap};
+use super::{
+    BATCH, Batch, Card, Entry, Lane, Method, PrefilterError, Prefiltered, Progress, Refusal,
+};
+use crate::geometry::{Kernel, vectorised};
+use crate::lobe::round::{Beckmann, Ggx, Phong, RoundLobe};
+use crate::lobe::vector::{dot, tan_squared};
+use crate::lobe::{BaseLobe, MultipleSurface, Shading};
+use crate::texture::{Footprint, NormalMap, Wrap};
 
 /// One base lobe about the perturbed normal at the sample's centre, whatever the footprint holds.
 ///
@@ -69,11 +74,66 @@ impl Prefiltered for UnfilteredMap {
     }
 
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
-        for i in 0..batch.len {
-            let lobe = unfiltered_lobe(&self.map, &self.base, batch.u[i], batch.v[i]);
-            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
-            radiance[i] = batch.irradiance[i] * lobe.radiance(shading, half, light, view);
+        let of = Of { map: &self.map, batch, radiance };
+        match self.base {
+            BaseLobe::BlinnPhong { exponent } => of.shade(shading, Phong::new(exponent)),
+            BaseLobe::Beckmann { alpha } => of.shade(shading, Beckmann::new(alpha)),
+            BaseLobe::Ggx { alpha } => of.shade(shading, Ggx::new(alpha)),
+        }
+    }
+}
+
+/// A batch of points of a map, and where its radiance goes.
+struct Of<'a> {
+    map: &'a NormalMap,
+    batch: &'a Batch,
+    radiance: &'a mut Lane,
+}
+
+impl Of<'_> {
+    /// Decides once what the loop need not ask at every lane.
+    fn shade<B: RoundLobe>(self, shading: Shading, base: B) {
+        match (shading, self.map.wrap()) {
+            (Shading::Ndf, Wrap::Repeat) => vectorised(Bare::<B, false, true> { of: self, base }),
+            (Shading::Ndf, Wrap::Clamp) => vectorised(Bare::<B, false, false> { of: self, base }),
+            (Shading::Microfacet, Wrap::Repeat) => {
+                vectorised(Bare::<B, true, true> { of: self, base });
+            }
+            (Shading::Microfacet, Wrap::Clamp) => {
+                vectorised(Bare::<B, true, false> { of: self, base });
+            }
+        }
+    }
+}
+
+/// The kernel: base lobes about interpolated normals. It computes what [`EllipticLobe`] with a round
+/// spread does, without building one: D needs only tan² of the angle between normal and half vector.
+///
+/// [`EllipticLobe`]: crate::lobe::EllipticLobe
+struct Bare<'a, B, const MICROFACET: bool, const REPEAT: bool> {
+    of: Of<'a>,
+    base: B,
+}
+
+impl<B: RoundLobe, const MICROFACET: bool, const REPEAT: bool> Kernel
+    for Bare<'_, B, MICROFACET, REPEAT>
+{
+    #[inline(always)]
+    fn run(self) {
+        let Of { map, batch, radiance } = self.of;
+        let mut normals = [[0.0; BATCH]; 4];
+        map.sample_lanes::<BATCH, REPEAT>(&batch.u, &batch.v, &mut normals);
+        let [x, y, z, weight] = &normals;
+        for i in 0..BATCH {
+            let n = [x[i], y[i], z[i]];
+            let at = |axes: &[Lane; 3]| [axes[0][i], axes[1][i], axes[2][i]];
+            let half = at(&batch.half);
+            let density = self.base.density(tan_squared(n, half));
+            let mut sent = batch.irradiance[i] * weight[i] * density;
+            if MICROFACET {
+                sent *= self.base.geometry(n, at(&batch.light), at(&batch.view));
+            }
+            radiance[i] = if dot(n, half) > 0.0 { sent } else { 0.0 };
         }
     }
 }

@@ -23,6 +23,7 @@ pub fn true_distribution(
     let sampler = PixelSampler::new(points);
     let lobes: Vec<EllipticLobe> = sampler
         .positions(stream(0, 0, 0))
+        .into_iter()
         .filter_map(|[dx, dy]| view.footprint(x + dx, y + dy))
         .map(|at| {
             let [x, y, z, weight] = map.sample(at.u, at.v);

@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::view::Needs;
 use super::{Film, PixelSampler, View, stream};
 use crate::method::{BATCH, Batch, Prefiltered};
 
@@ -40,7 +39,8 @@ pub fn render(
     Ok(Film::new(width, height, pixels))
 }
 
-/// Renders one row of pixels, batch by batch.
+/// Renders one row of pixels, batch by batch. Samples of one pixel follow one another; a batch may
+/// hold samples of many pixels, or a part of one pixel's.
 fn render_row(
     view: &View,
     map: &dyn Prefiltered,
@@ -49,60 +49,89 @@ fn render_row(
     streams: impl Iterator<Item = u64>,
     line: &mut [f32],
 ) {
-    let spp = f64::from(sampler.spp());
-    let needs = Needs { footprint: map.needs_footprint().then(|| 1.0 / spp.sqrt()) };
+    let spp = sampler.spp() as usize;
+    let spacing = map.needs_footprint().then(|| 1.0 / f64::from(sampler.spp()).sqrt());
     let mut sums = vec![0.0f64; line.len()];
-    let mut samples = Samples::default();
-    let mut flush = |samples: &mut Samples| {
-        view.fill(&samples.x, &samples.y, samples.len, needs, &mut samples.batch);
-        map.shade(&samples.batch, view.shading, &mut samples.radiance);
-        for i in 0..samples.len {
-            sums[samples.column[i]] += f64::from(samples.radiance[i]);
-        }
-        samples.len = 0;
-    };
+    let mut waiting = Waiting::default();
     for (column, stream) in streams.enumerate() {
-        for [dx, dy] in sampler.positions(stream) {
-            samples.push(column, column as f64 + dx, row as f64 + dy);
-            if samples.len == BATCH {
-                flush(&mut samples);
+        let corner = [column as f64, row as f64];
+        let mut first = 0;
+        while first < spp {
+            let lanes = waiting.len..(waiting.len + spp - first).min(BATCH);
+            let (x, y) = (&mut waiting.x[lanes.clone()], &mut waiting.y[lanes.clone()]);
+            sampler.fill(stream, first, corner, x, y);
+            first += lanes.len();
+            waiting.len = lanes.end;
+            waiting.runs.push((column, lanes.end));
+            if waiting.len == BATCH {
+                waiting.shade(view, map, spacing, &mut sums);
             }
         }
     }
-    flush(&mut samples);
+    waiting.shade(view, map, spacing, &mut sums);
     for (pixel, sum) in line.iter_mut().zip(sums) {
-        *pixel = (sum / spp) as f32;
+        *pixel = (sum / spp as f64) as f32;
     }
 }
 
 /// Samples waiting to be shaded together.
-struct Samples {
+struct Waiting {
     len: usize,
     x: [f64; BATCH],
     y: [f64; BATCH],
-    column: [usize; BATCH],
+    /// Runs of samples of one pixel: its column, and the lane after the run's last.
+    runs: Vec<(usize, usize)>,
     batch: Batch,
     radiance: [f32; BATCH],
 }
 
-impl Default for Samples {
+impl Default for Waiting {
     fn default() -> Self {
         Self {
             len: 0,
             x: [0.0; BATCH],
             y: [0.0; BATCH],
-            column: [0; BATCH],
+            runs: Vec::with_capacity(BATCH),
             batch: Batch::default(),
             radiance: [0.0; BATCH],
         }
     }
 }
 
-impl Samples {
-    fn push(&mut self, column: usize, x: f64, y: f64) {
-        self.column[self.len] = column;
-        self.x[self.len] = x;
-        self.y[self.len] = y;
-        self.len += 1;
+impl Waiting {
+    /// Shades them and adds each pixel's radiance to its sum.
+    fn shade(
+        &mut self,
+        view: &View,
+        map: &dyn Prefiltered,
+        spacing: Option<f64>,
+        sums: &mut [f64],
+    ) {
+        view.fill(&self.x, &self.y, self.len, spacing, &mut self.batch);
+        map.shade(&self.batch, view.shading, &mut self.radiance);
+        let mut start = 0;
+        for (column, end) in self.runs.drain(..) {
+            sums[column] += total(&self.radiance[start..end]);
+            start = end;
+        }
+        self.len = 0;
     }
+}
+
+/// The sum of a run, in eight interleaved partial sums: a fixed order that need not wait for one
+/// addition to begin the next.
+fn total(run: &[f32]) -> f64 {
+    let mut partial = [0.0f64; 8];
+    let chunks = run.chunks_exact(8);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for (sum, &value) in partial.iter_mut().zip(chunk) {
+            *sum += f64::from(value);
+        }
+    }
+    for (sum, &value) in partial.iter_mut().zip(rest) {
+        *sum += f64::from(value);
+    }
+    let [a, b, c, d, e, f, g, h] = partial;
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }

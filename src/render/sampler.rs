@@ -14,8 +14,8 @@ pub struct PixelSampler {
     points: Vec<[u32; 2]>,
 }
 
-/// 2⁻³²
-const UNIT: f64 = 1.0 / 4_294_967_296.0;
+/// 2⁻³¹
+const UNIT: f64 = 1.0 / 2_147_483_648.0;
 
 impl PixelSampler {
     /// A sampler for `spp` ≥ 1 samples a pixel.
@@ -28,23 +28,40 @@ impl PixelSampler {
         self.points.len() as u32
     }
 
-    /// The positions in [0, 1)² of a pixel's samples. `stream` tells pixels, replicates and seeds
-    /// apart; see [`stream`]. A single sample is the pixel's centre, as a renderer without
+    /// Writes positions in (0, 1)² of a pixel's samples, the `first`-th and those after it, plus the
+    /// pixel's corner, until `x` and `y` (of one length) are full. `stream` tells pixels, replicates and
+    /// seeds apart; see [`stream`]. A single sample is the pixel's centre, as a renderer without
     /// supersampling has it.
+    ///
+    /// # Panics
+    /// If there are not so many samples.
     #[inline]
-    pub fn positions(&self, stream: u64) -> impl Iterator<Item = [f64; 2]> + '_ {
+    pub fn fill(&self, stream: u64, first: usize, corner: [f64; 2], x: &mut [f64], y: &mut [f64]) {
+        if self.points.len() == 1 {
+            (x[0], y[0]) = (corner[0] + 0.5, corner[1] + 0.5);
+            return;
+        }
         let masks = mix(stream);
         let (across, down) = (masks as u32, (masks >> 32) as u32);
-        let single = self.points.len() == 1;
-        self.points.iter().map(move |&[x, y]| {
-            if single {
-                [0.5, 0.5]
-            } else {
-                // Half a unit in the last place keeps points inside the open square.
-                [x ^ across, y ^ down].map(|bits| (f64::from(bits) + 0.5) * UNIT)
-            }
-        })
+        let points = &self.points[first..first + x.len()];
+        for ((point, x), y) in points.iter().zip(x).zip(y) {
+            *x = corner[0] + fraction(point[0] ^ across);
+            *y = corner[1] + fraction(point[1] ^ down);
+        }
     }
+
+    /// The positions in (0, 1)² of a pixel's samples; see [`PixelSampler::fill`].
+    pub fn positions(&self, stream: u64) -> Vec<[f64; 2]> {
+        let (mut x, mut y) = (vec![0.0; self.points.len()], vec![0.0; self.points.len()]);
+        self.fill(stream, 0, [0.0; 2], &mut x, &mut y);
+        x.into_iter().zip(y).map(|(x, y)| [x, y]).collect()
+    }
+}
+
+/// The upper 31 bits as a binary fraction, half a unit in the last place added: inside (0, 1).
+#[inline(always)]
+fn fraction(bits: u32) -> f64 {
+    (f64::from((bits >> 1) as i32) + 0.5) * UNIT
 }
 
 /// A number that tells a pixel's random choices from all others of the experiment.
@@ -82,7 +99,7 @@ mod tests {
     #[test]
     fn four_to_the_k_points_form_a_net() {
         let sampler = PixelSampler::new(256);
-        let points: Vec<[f64; 2]> = sampler.positions(stream(7, 0, 123)).collect();
+        let points = sampler.positions(stream(7, 0, 123));
         // Every split of 256 boxes into 2^a × 2^(8−a) holds one point each.
         for a in 0..=8u32 {
             let (across, down) = (1usize << a, 1usize << (8 - a));
@@ -101,9 +118,7 @@ mod tests {
         let sampler = PixelSampler::new(2);
         let n = 20_000;
         for c in 0..2 {
-            let sum: f64 = (0..n)
-                .map(|pixel| sampler.positions(stream(1, 0, pixel)).next().expect("two points")[c])
-                .sum();
+            let sum: f64 = (0..n).map(|pixel| sampler.positions(stream(1, 0, pixel))[0][c]).sum();
             let off = (sum / n as f64 - 0.5).abs();
             assert!(off < 4.0 / (12.0 * n as f64).sqrt(), "coordinate {c}: {off}");
         }
@@ -111,9 +126,9 @@ mod tests {
 
     #[test]
     fn one_sample_is_the_centre_and_streams_differ() {
-        assert_eq!(PixelSampler::new(1).positions(5).collect::<Vec<_>>(), [[0.5, 0.5]]);
+        assert_eq!(PixelSampler::new(1).positions(5), [[0.5, 0.5]]);
         let two = PixelSampler::new(2);
-        let first = |s| two.positions(s).next().expect("two points");
+        let first = |s| two.positions(s)[0];
         assert_ne!(first(stream(1, 0, 0)), first(stream(1, 0, 1)));
         assert_ne!(first(stream(1, 0, 0)), first(stream(1, 1, 0)));
         assert_ne!(first(stream(1, 0, 0)), first(stream(2, 0, 0)));

@@ -1,6 +1,6 @@
 //! What is seen: a surface under a light before a camera.
 
-use crate::geometry::Vec3;
+use crate::geometry::{Kernel, Vec3, vectorised};
 use crate::light::Light;
 use crate::lobe::Shading;
 use crate::method::{BATCH, Batch};
@@ -38,54 +38,97 @@ impl View {
         Some(Footprint { u, v, along_x, along_y })
     }
 
-    /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`), a sample
-    /// standing for `spacing` of a pixel's side.
+    /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`). With
+    /// `spacing`, the part of a pixel's side that a sample stands for, it fills in footprints too.
+    ///
+    /// What differs from batch to batch is decided here, once, and not within the loop.
     pub(super) fn fill(
         &self,
         x: &[f64; BATCH],
         y: &[f64; BATCH],
         len: usize,
-        needs: Needs,
+        spacing: Option<f64>,
         batch: &mut Batch,
     ) {
         batch.len = len;
-        match &self.surface {
-            Shape::Plane(plane) => self.fill_from(plane, x, y, needs, batch),
-            Shape::Sphere(sphere) => self.fill_from(sphere, x, y, needs, batch),
+        let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
+        match (self.shading, spacing) {
+            (Shading::Ndf, None) => points.fill::<false, false>(),
+            (Shading::Ndf, Some(_)) => points.fill::<false, true>(),
+            (Shading::Microfacet, None) => points.fill::<true, false>(),
+            (Shading::Microfacet, Some(_)) => points.fill::<true, true>(),
+        }
+    }
+}
+
+/// Image points on their way to a batch.
+struct Points<'a> {
+    view: &'a View,
+    x: &'a [f64; BATCH],
+    y: &'a [f64; BATCH],
+    spacing: f64,
+    batch: &'a mut Batch,
+}
+
+impl Points<'_> {
+    fn fill<const DIRECTIONS: bool, const FOOTPRINTS: bool>(self) {
+        match self.view.surface {
+            Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(plane),
+            Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(sphere),
         }
     }
 
-    /// [`View::fill`] for one kind of surface.
-    fn fill_from<S: Surface>(
-        &self,
-        surface: &S,
-        x: &[f64; BATCH],
-        y: &[f64; BATCH],
-        needs: Needs,
-        batch: &mut Batch,
-    ) {
-        let origin = self.camera.origin();
-        let steps = self.camera.ray_steps();
-        for i in 0..batch.len {
-            let ray = self.camera.ray(x[i], y[i]);
-            let Some(hit) = surface.intersect(origin, ray) else {
-                batch.irradiance[i] = 0.0;
-                continue;
-            };
-            let (light, irradiance) = self.light.seen_from(hit.point);
-            let view = ray / -ray.norm();
+    fn lit<S: Surface, const DIRECTIONS: bool, const FOOTPRINTS: bool>(self, surface: S) {
+        match self.view.light {
+            Light::Directional { direction, irradiance } => {
+                let light = move |_: Vec3| (direction, irradiance);
+                vectorised(Fill::<_, _, DIRECTIONS, FOOTPRINTS> { points: self, surface, light });
+            }
+            near @ Light::Point { .. } => {
+                let light = move |point: Vec3| near.seen_from(point);
+                vectorised(Fill::<_, _, DIRECTIONS, FOOTPRINTS> { points: self, surface, light });
+            }
+        }
+    }
+}
+
+/// The loop that fills a batch, for one kind of surface and light.
+struct Fill<'a, S, L, const DIRECTIONS: bool, const FOOTPRINTS: bool> {
+    points: Points<'a>,
+    surface: S,
+    /// Unit direction to the light and irradiance at a point.
+    light: L,
+}
+
+impl<S, L, const DIRECTIONS: bool, const FOOTPRINTS: bool> Kernel
+    for Fill<'_, S, L, DIRECTIONS, FOOTPRINTS>
+where
+    S: Surface,
+    L: Fn(Vec3) -> (Vec3, f64),
+{
+    #[inline(always)]
+    fn run(self) {
+        let Points { view, x, y, spacing, batch } = self.points;
+        let (camera, wrap) = (view.camera, view.wrap);
+        let steps = camera.ray_steps();
+        // The whole width, whatever the length: lanes past it are filled with numbers of no use.
+        for i in 0..BATCH {
+            let ray = camera.ray(x[i], y[i]);
+            let (hit, hits) = self.surface.trace(camera.origin(), ray);
+            let (light, irradiance) = (self.light)(hit.point);
+            let view = ray * (-1.0 / ray.norm_squared().sqrt());
             let frame = &hit.frame;
-            let lit = light.dot(&frame.normal) > 0.0;
+            let lit = hits & (light.dot(&frame.normal) > 0.0);
             batch.irradiance[i] = if lit { irradiance as f32 } else { 0.0 };
-            batch.u[i] = self.wrap.fold(hit.uv[0]) as f32;
-            batch.v[i] = self.wrap.fold(hit.uv[1]) as f32;
+            batch.u[i] = wrap.fold(hit.uv[0]) as f32;
+            batch.v[i] = wrap.fold(hit.uv[1]) as f32;
             let (light, view) = (frame.local_from_world(light), frame.local_from_world(view));
             store(&mut batch.half, i, light + view);
-            if self.shading == Shading::Microfacet {
+            if DIRECTIONS {
                 store(&mut batch.light, i, light);
                 store(&mut batch.view, i, view);
             }
-            if let Some(spacing) = needs.footprint {
+            if FOOTPRINTS {
                 for (axis, step) in steps.iter().enumerate() {
                     let moved = displacement(ray, *step, hit.t, frame.normal) * spacing;
                     for c in 0..2 {
@@ -95,13 +138,6 @@ impl View {
             }
         }
     }
-}
-
-/// What a batch must hold beyond positions and directions.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Needs {
-    /// Footprints, of samples that stand for this part of a pixel's side.
-    pub footprint: Option<f64>,
 }
 
 /// Writes a vector into lane `i`.

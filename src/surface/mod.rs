@@ -28,8 +28,16 @@ pub struct Hit {
 
 /// A surface with texture coordinates.
 pub trait Surface: Copy + Send + Sync + std::fmt::Debug {
-    /// The first hit at t > 0 of the ray `origin` + t·`direction` (any length), seen from outside.
-    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<Hit>;
+    /// The first hit at t > 0 of the ray `origin` + t·`direction` (any length), seen from outside, and
+    /// whether there is one; if not, the hit holds numbers of no meaning. Without a branch, so that a
+    /// loop over rays can become vector code.
+    fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool);
+
+    /// [`Surface::trace`] for a single ray.
+    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
+        let (hit, hits) = self.trace(origin, direction);
+        hits.then_some(hit)
+    }
 
     /// The same surface with `tiles` map tiles per scene unit along u (and as many along v, corrected
     /// for the map's `aspect` = height/width in texels, so that texels stay square). A surface that

@@ -26,20 +26,18 @@ impl Default for Plane {
 
 impl Surface for Plane {
     #[inline(always)]
-    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
-        if origin.z <= 0.0 || direction.z >= 0.0 {
-            return None;
-        }
+    fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
         let t = -origin.z / direction.z;
         let point = Vec3::new(origin.x + t * direction.x, origin.y + t * direction.y, 0.0);
         let [across, along] = self.tiles;
-        Some(Hit {
+        let hit = Hit {
             t,
             point,
             frame: Frame { tangent: Vec3::x(), bitangent: Vec3::y(), normal: Vec3::z() },
             uv: [point.x * across, point.y * along],
             gradient: [Vec3::x() * across, Vec3::y() * along],
-        })
+        };
+        (hit, origin.z > 0.0 && direction.z < 0.0)
     }
 
     fn tiled(&self, tiles: f64, aspect: f64) -> Self {

@@ -34,7 +34,7 @@ const SMALLEST_RADIUS: f64 = 1e-6;
 
 impl Surface for Sphere {
     #[inline(always)]
-    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
+    fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
         // |o + t d|² = 1, by the half-coefficient form.
         let a = direction.norm_squared();
         let b = origin.dot(&direction);
@@ -42,24 +42,22 @@ impl Surface for Sphere {
         let discriminant = b * b - a * c;
         // From outside, moving inwards, and not missing (a NaN misses).
         let hits = c > 0.0 && b < 0.0 && discriminant >= 0.0;
-        if !hits {
-            return None;
-        }
         // c/(−b + √) is the nearer root without cancellation.
-        let t = c / (-b + discriminant.sqrt());
+        let t = c / (-b + discriminant.max(0.0).sqrt());
         let point = (origin + direction * t).normalize();
         let radius = (point.x * point.x + point.y * point.y).sqrt();
         let frame = Frame::new(point, Vec3::new(-point.y, point.x, 0.0));
         let longitude = libm::atan2(point.y, point.x);
         let latitude = libm::atan2(point.z, radius);
         let [round, up] = [self.tiles[0] / TAU, self.tiles[1] / PI];
-        Some(Hit {
+        let hit = Hit {
             t,
             point,
             frame,
             uv: [longitude * round, (latitude + FRAC_PI_2) * up],
             gradient: [frame.tangent * (round / radius.max(SMALLEST_RADIUS)), frame.bitangent * up],
-        })
+        };
+        (hit, hits)
     }
 
     fn tiled(&self, tiles: f64, aspect: f64) -> Self {

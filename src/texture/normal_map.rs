@@ -141,6 +141,48 @@ impl NormalMap {
         }
     }
 
+    /// [`NormalMap::sample`] for `N` lanes at once, the result channel by channel. `REPEAT` must say
+    /// whether the map repeats; it is a constant so that the loop need not ask at every lane.
+    #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "lanes run through several arrays at once")]
+    pub fn sample_lanes<const N: usize, const REPEAT: bool>(
+        &self,
+        u: &[f32; N],
+        v: &[f32; N],
+        out: &mut [[f32; N]; 4],
+    ) {
+        let wrap = if REPEAT { Wrap::Repeat } else { Wrap::Clamp };
+        let mut corners = [[0u32; N]; 4];
+        let (mut right, mut up) = ([0.0f32; N], [0.0f32; N]);
+        let nearest = self.interpolation == Interpolation::Nearest;
+        for i in 0..N {
+            let across = wrap.taps(u[i], self.width);
+            let along = wrap.taps(v[i], self.height);
+            let (low, high) = (along.first * self.width, along.second * self.width);
+            corners[0][i] = (low + across.first) as u32;
+            corners[1][i] = (low + across.second) as u32;
+            corners[2][i] = (high + across.first) as u32;
+            corners[3][i] = (high + across.second) as u32;
+            let step = |blend: f32| if blend < 0.5 { 0.0 } else { 1.0 };
+            right[i] = if nearest { step(across.blend) } else { across.blend };
+            up[i] = if nearest { step(along.blend) } else { along.blend };
+        }
+        let mut texels = [[0.0f32; 4]; N];
+        for i in 0..N {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.texels[corners[k][i] as usize]);
+            for k in 0..4 {
+                let low = a[k] + right[i] * (b[k] - a[k]);
+                let high = c[k] + right[i] * (d[k] - c[k]);
+                texels[i][k] = low + up[i] * (high - low);
+            }
+        }
+        for i in 0..N {
+            for k in 0..4 {
+                out[k][i] = texels[i][k];
+            }
+        }
+    }
+
     /// How many texels lean so far (z below [`MIN_COSINE`]) that their slope is held; methods that
     /// work in slopes misread these.
     pub fn below_horizon(&self) -> usize {

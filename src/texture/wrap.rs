@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::elementary::{floor32, floor64};
+
 /// What lies beyond the edge of a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -30,7 +32,7 @@ impl Wrap {
     #[inline(always)]
     pub fn fold(self, coordinate: f64) -> f64 {
         match self {
-            Self::Repeat => coordinate - coordinate.floor(),
+            Self::Repeat => coordinate - floor64(coordinate),
             Self::Clamp => coordinate.clamp(0.0, 1.0),
         }
     }
@@ -40,7 +42,7 @@ impl Wrap {
     #[inline(always)]
     pub fn taps(self, coordinate: f32, size: usize) -> Taps {
         let position = coordinate * size as f32 - 0.5;
-        let below = position.floor();
+        let below = floor32(position);
         let (last, below_index) = (size as i32 - 1, below as i32);
         let above_index = below_index + 1;
         let (first, second) = match self {
