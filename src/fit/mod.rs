@@ -9,6 +9,7 @@ mod greedy;
 #[cfg(test)]
 mod independent;
 mod kernel;
+mod least_squares;
 mod peak;
 mod problem;
 mod solver;
@@ -16,7 +17,7 @@ mod solver;
 mod tests;
 
 pub use distribution::{Directions, Distribution};
-pub use greedy::{Fit, GreedyOptions, first_guess, fit, reconstruct};
+pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, first_guess, fit, reconstruct};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;
 pub use solver::{

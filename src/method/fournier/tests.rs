@@ -122,8 +122,8 @@ fn moment(surface: &crate::lobe::MultipleSurface) -> [f64; 3] {
         let crate::lobe::Lobe::Peak(peak) = lobe else { panic!("{lobe:?} is not a peak") };
         let strength =
             std::f64::consts::TAU * f64::from(peak.amplitude) / (f64::from(peak.exponent) + 2.0);
-        for c in 0..3 {
-            sum[c] += strength * f64::from(peak.direction[c]);
+        for (sum, axis) in sum.iter_mut().zip(peak.direction) {
+            *sum += strength * f64::from(axis);
         }
     }
     sum
