@@ -7,8 +7,8 @@ use std::sync::Arc;
 use divan::Bencher;
 use nalgebra::Vector3;
 use wrinkle::fit::{
-    Directions, Distribution, GreedyOptions, LevenbergMarquardt, Peak, PeakProblem, Settings,
-    first_guess, fit, solve,
+    Directions, Distribution, GREEDY_SETTINGS, GreedyOptions, LevenbergMarquardt, Peak,
+    PeakProblem, first_guess, fit, solve,
 };
 use wrinkle::geometry::HemisphereGrid;
 use wrinkle::lobe::BaseLobe;
@@ -21,16 +21,6 @@ mod independent;
 fn main() {
     divan::main();
 }
-
-/// What the settings of the procedure stop at.
-const SETTINGS: Settings = Settings {
-    tau: 1.0,
-    small_gradient: 1e-9,
-    small_step: 1e-9,
-    small_cost: 1e-20,
-    stall: 1e-6,
-    iterations: 100,
-};
 
 /// The normals of a sphere's quarter: a broad distribution, which takes all 7 peaks.
 fn distribution(directions: &Directions) -> Distribution {
@@ -69,8 +59,9 @@ fn ours(bencher: Bencher, peaks: usize) {
     let distribution = distribution(&directions);
     let start = start(&distribution, &directions, peaks);
     let problem = PeakProblem::new(&directions, &distribution);
-    let run =
-        || solve(problem, LevenbergMarquardt::new(SETTINGS, &|| false), start.clone()).unwrap();
+    let run = || {
+        solve(problem, LevenbergMarquardt::new(GREEDY_SETTINGS, &|| false), start.clone()).unwrap()
+    };
     let found = run();
     eprintln!(
         "ours, {peaks}: cost {:.6e}, {} iterations, {:?}",
@@ -89,7 +80,10 @@ fn levenberg_marquardt_crate(bencher: Bencher, peaks: usize) {
     let target: Vec<f64> = distribution.values().iter().map(|v| v / maximum).collect();
     let run = || {
         let problem = independent::Independent::new(places.clone(), target.clone(), &start);
-        levenberg_marquardt::LevenbergMarquardt::new().with_tol(1e-6).minimize(problem).1
+        levenberg_marquardt::LevenbergMarquardt::new()
+            .with_tol(GREEDY_SETTINGS.stall)
+            .minimize(problem)
+            .1
     };
     let found = run();
     eprintln!(

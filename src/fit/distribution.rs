@@ -108,7 +108,10 @@ impl Distribution {
 
     fn of(values: Vec<f64>, count: usize) -> Self {
         let maximum = values.iter().fold(0.0, |m: f64, &v| m.max(v));
-        let rms = root_mean_square(&values[..count]);
+        // In units of the maximum, so that squares neither overflow nor vanish.
+        let scale = if maximum > 0.0 { maximum } else { 1.0 };
+        let relative: Vec<f64> = values[..count].iter().map(|v| v / scale).collect();
+        let rms = root_mean_square(&relative) * scale;
         Self { values, count, maximum, rms }
     }
 

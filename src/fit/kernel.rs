@@ -133,27 +133,58 @@ pub(super) fn derive(
     true
 }
 
-/// Sums of the normal equations of `count` unknowns, row by row; of the matrix the lower blocks only.
+/// Partial sums of the dot products of two columns with four.
+type Products = [[[f64; LANES]; PER_PEAK]; 2];
+
+/// Partial sums of the normal equations.
 #[derive(Clone, Debug)]
 pub(super) struct Sums {
-    pub squares: f64,
-    pub gradient: Vec<f64>,
-    pub gram: Vec<f64>,
+    squares: [f64; LANES],
+    gradient: Vec<[f64; LANES]>,
+    /// The lower triangle of the matrix in blocks of a peak by a peak, row by row; a block is two
+    /// pairs of rows.
+    gram: Vec<[Products; 2]>,
     columns: Vec<Columns>,
     active: Vec<usize>,
 }
 
 impl Sums {
     pub(super) fn new(peaks: usize) -> Self {
-        let count = PER_PEAK * peaks;
         Self {
-            squares: 0.0,
-            gradient: vec![0.0; count],
-            gram: vec![0.0; count * count],
+            squares: [0.0; LANES],
+            gradient: vec![[0.0; LANES]; PER_PEAK * peaks],
+            gram: vec![[[[[0.0; LANES]; PER_PEAK]; 2]; 2]; peaks * (peaks + 1) / 2],
             columns: vec![[[0.0; CHUNK]; PER_PEAK]; peaks],
             active: Vec::with_capacity(peaks),
         }
     }
+
+    /// Σ r².
+    pub(super) fn squares(&self) -> f64 {
+        total(&self.squares)
+    }
+
+    /// Σ J_i r.
+    pub(super) fn gradient(&self, i: usize) -> f64 {
+        total(&self.gradient[i])
+    }
+
+    /// Σ J_i J_j.
+    pub(super) fn gram(&self, i: usize, j: usize) -> f64 {
+        let (i, j) = (i.max(j), i.min(j));
+        let (p, q, row) = (i / PER_PEAK, j / PER_PEAK, i % PER_PEAK);
+        total(&self.gram[block(p, q)][row / 2][row % 2][j % PER_PEAK])
+    }
+}
+
+/// Where the block of peaks p ≥ q stands.
+#[inline(always)]
+fn block(p: usize, q: usize) -> usize {
+    p * (p + 1) / 2 + q
+}
+
+fn total(s: &[f64; LANES]) -> f64 {
+    (s[0] + s[1]) + (s[2] + s[3])
 }
 
 for_avx2_too! {
@@ -172,42 +203,33 @@ fn accumulate(axes: [&Lanes; 3], target: &Lanes, charts: &[Chart], sums: &mut Su
             active.push(p);
         }
     }
-    *squares += dot(&residual, &residual);
-    let count = gradient.len();
+    add_dot(&residual, &residual, squares);
     for (at, &p) in active.iter().enumerate() {
-        let rows = &columns[p];
-        for (i, row) in rows.iter().enumerate() {
-            gradient[PER_PEAK * p + i] += dot(row, &residual);
+        let [a, b, c, d] = &columns[p];
+        for (column, sum) in columns[p].iter().zip(&mut gradient[PER_PEAK * p..]) {
+            add_dot(column, &residual, sum);
         }
         for &q in &active[..=at] {
-            for i in [0, 2] {
-                let block = products([&rows[i], &rows[i + 1]], &columns[q]);
-                for (di, line) in block.iter().enumerate() {
-                    let start = (PER_PEAK * p + i + di) * count + PER_PEAK * q;
-                    for (sum, add) in gram[start..start + PER_PEAK].iter_mut().zip(line) {
-                        *sum += add;
-                    }
-                }
-            }
+            let [upper, lower] = &mut gram[block(p, q)];
+            add_products([a, b], &columns[q], upper);
+            add_products([c, d], &columns[q], lower);
         }
     }
 }
 
 #[inline(always)]
-fn dot(a: &Lanes, b: &Lanes) -> f64 {
-    let mut sum = [0.0; LANES];
+fn add_dot(a: &Lanes, b: &Lanes, sum: &mut [f64; LANES]) {
     for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
         for lane in 0..LANES {
             sum[lane] += a[lane] * b[lane];
         }
     }
-    (sum[0] + sum[1]) + (sum[2] + sum[3])
 }
 
-/// Dot products of two columns with four: as many sums as there are vector registers.
+/// Adds the dot products of two columns with four: as many sums as there are vector registers.
 #[inline(always)]
-fn products(a: [&Lanes; 2], b: &Columns) -> [[f64; PER_PEAK]; 2] {
-    let mut sums = [[[0.0; LANES]; PER_PEAK]; 2];
+fn add_products(a: [&Lanes; 2], b: &Columns, out: &mut Products) {
+    let mut sums = *out;
     for at in (0..CHUNK).step_by(LANES) {
         for i in 0..2 {
             for j in 0..PER_PEAK {
@@ -217,5 +239,5 @@ fn products(a: [&Lanes; 2], b: &Columns) -> [[f64; PER_PEAK]; 2] {
             }
         }
     }
-    sums.map(|row| row.map(|s| (s[0] + s[1]) + (s[2] + s[3])))
+    *out = sums;
 }

@@ -9,16 +9,18 @@ mod greedy;
 #[cfg(test)]
 mod independent;
 mod kernel;
+mod least_squares;
 mod peak;
 mod problem;
+#[cfg(test)]
+mod reference_data;
 mod solver;
 #[cfg(test)]
 mod tests;
 
 pub use distribution::{Directions, Distribution};
-pub use greedy::{Fit, GreedyOptions, first_guess, fit, reconstruct};
+pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, first_guess, fit, reconstruct};
+pub use least_squares::{LeastSquares, NormalEquations};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;
-pub use solver::{
-    LeastSquares, LevenbergMarquardt, NormalEquations, Settings, Solution, Termination, solve,
-};
+pub use solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};

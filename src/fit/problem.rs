@@ -102,12 +102,11 @@ impl LeastSquares<Vec<Peak>> for PeakProblem<'_> {
         for (axes, target) in self.chunks() {
             accumulate_chunk(axes, &target, &charts, &mut sums);
         }
-        let count = sums.gradient.len();
-        let lower = |i: usize, j: usize| sums.gram[i.max(j) * count + i.min(j)];
+        let count = PER_PEAK * peaks.len();
         let mut equations = NormalEquations {
-            cost: 0.5 * sums.squares,
-            gradient: DVector::from_column_slice(&sums.gradient),
-            gram: DMatrix::from_fn(count, count, lower),
+            cost: 0.5 * sums.squares(),
+            gradient: DVector::from_fn(count, |i, _| sums.gradient(i)),
+            gram: DMatrix::from_fn(count, count, |i, j| sums.gram(i, j)),
         };
         pin(peaks, &mut equations);
         Ok(equations)

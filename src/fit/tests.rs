@@ -172,12 +172,6 @@ fn what_cannot_be_fitted_is_said_or_answered_exactly() {
         assert!(fit.rms.is_finite() && fit.maximum.is_finite(), "{exponent}: {fit:?}");
         assert!(fit.peaks.iter().all(|p| p.amplitude.is_finite() && p.exponent.is_finite()));
     }
-    assert_eq!(
-        answer(&(0..20).map(|i| peak(1.0, 0.01 * f64::from(i), 0.0, 9.0)).collect::<Vec<_>>())
-            .unwrap()
-            .is_some(),
-        true
-    );
     let cancelled = reconstruct(&below, &directions, options, &|| true).unwrap();
     assert!(cancelled.is_none());
 }

@@ -88,7 +88,10 @@ pub fn exp64(x: f64) -> f64 {
 pub fn ln64(x: f64) -> f64 {
     const SQRT_HALF_BITS: u64 = 0x3fe6_a09e_667f_3bcd;
     let bits = x.to_bits().wrapping_add(0x3ff0_0000_0000_0000 - SQRT_HALF_BITS);
-    let k = ((bits >> 52) as i64 - 1023) as f64;
+    // The exponent as a number: set in the low bits of 2⁵² it is one. (A conversion from 64-bit
+    // integers has no vector form before AVX-512.)
+    let k =
+        f64::from_bits(0x4330_0000_0000_0000 | (bits >> 52)) - (4_503_599_627_370_496.0 + 1023.0);
     let f = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) + SQRT_HALF_BITS) - 1.0;
     let s = f / (2.0 + f);
     let z = s * s;

@@ -204,10 +204,10 @@ impl Slots {
     fn sum(&self, f: impl Fn(PhongPeak) -> f32) -> f32 {
         let mut values = [0.0; SLOTS];
         for start in (0..self.count).step_by(GROUP) {
-            for k in start..start + GROUP {
+            for (value, k) in values[start..start + GROUP].iter_mut().zip(start..) {
                 let direction = [self.direction[0][k], self.direction[1][k], self.direction[2][k]];
                 let (amplitude, exponent) = (self.amplitude[k], self.exponent[k]);
-                values[k] = f(PhongPeak { amplitude, direction, exponent });
+                *value = f(PhongPeak { amplitude, direction, exponent });
             }
         }
         values[..self.count].iter().sum()

@@ -103,7 +103,7 @@ fn the_kernel_is_the_lobes_bit_by_bit() {
 
 #[test]
 fn the_surface_has_at_most_56_peaks_and_one_unfiltered_lobe() {
-    let map = bumps(32, 32);
+    let map = bumps(16, 16);
     let greedy = GreedyOptions { stop: 0.0, ..GreedyOptions::default() };
     let filtered = prefiltered(&Fournier { greedy, ..Fournier::default() }, &map);
     let lobes = |level| filtered.lobes_at(&footprint(&map, 0.41, 0.33, level)).lobes().len();
@@ -122,8 +122,8 @@ fn moment(surface: &crate::lobe::MultipleSurface) -> [f64; 3] {
         let crate::lobe::Lobe::Peak(peak) = lobe else { panic!("{lobe:?} is not a peak") };
         let strength =
             std::f64::consts::TAU * f64::from(peak.amplitude) / (f64::from(peak.exponent) + 2.0);
-        for c in 0..3 {
-            sum[c] += strength * f64::from(peak.direction[c]);
+        for (sum, axis) in sum.iter_mut().zip(peak.direction) {
+            *sum += strength * f64::from(axis);
         }
     }
     sum
