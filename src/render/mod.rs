@@ -1,7 +1,10 @@
 //! Floor 4: cameras, footprints, supersampling and films.
 
 mod camera;
+mod display;
 mod film;
+mod film_file;
+mod image_file;
 mod probe;
 mod reference;
 mod renderer;
@@ -9,7 +12,10 @@ mod sampler;
 mod view;
 
 pub use camera::{Camera, direction};
+pub use display::{heat, srgb, write_error_png, write_png};
 pub use film::Film;
+pub use film_file::{read_film, write_film};
+pub use image_file::{Coding, ImageFileError, StoredImage, read_image};
 pub use probe::true_distribution;
 pub use reference::{Converged, average};
 pub use renderer::{Cancelled, render};
