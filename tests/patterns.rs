@@ -177,7 +177,7 @@ fn twill_cells_show_warp_and_weft_in_diagonal_steps() {
             for (a, b) in (0..cells).flat_map(|a| (0..cells).map(move |b| (a, b))) {
                 // The first texel of a cell leans across its thread.
                 let [x, y, ..] = bumps.normals.texel(a * pitch, b * pitch);
-                let weft = (a + b + phase) % (over + 1) == 0;
+                let weft = (b + over * a + phase) % (over + 1) == 0;
                 assert_eq!(weft, x == 0.0 && y < 0.0, "cell {a},{b}");
                 assert_eq!(!weft, y == 0.0 && x < 0.0, "cell {a},{b}");
             }
@@ -255,6 +255,35 @@ fn gaussian_slopes_are_near_normal() {
         assert!((moment(2) - 1.0).abs() < 1e-5);
         assert!(moment(3).abs() < 0.3, "skew {}", moment(3));
         assert!((moment(4) - 3.0).abs() < 0.4, "kurtosis {}", moment(4));
+    }
+}
+
+#[test]
+fn bricks_and_grid_are_flat_on_top_and_in_the_grooves() {
+    for name in ["grid", "bricks"] {
+        let bumps = make(name, [128, 96], &[], 0);
+        let heights = bumps.heights.unwrap();
+        let (low, high) =
+            heights.values().iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+        assert_eq!((low, high), (0.0, 2.0), "{name}");
+        // Between grooves and in one: the middle of a plate or brick, and a corner where joints meet.
+        let [i, j] = if name == "grid" { [16, 12] } else { [21, 8] };
+        assert_eq!((bumps.normals.texel(i, j)[2], heights.at(i as isize, j as isize)), (1.0, 2.0));
+        assert_eq!((bumps.normals.texel(0, 0)[2], heights.at(0, 0)), (1.0, 0.0));
+        // A closed surface that repeats: slopes cancel.
+        assert!(slope_mean(&bumps.normals, |x, _| x).abs() < 1e-6);
+        assert!(slope_mean(&bumps.normals, |_, y| y).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn courses_of_bricks_are_shifted_by_half_a_brick() {
+    let set = [("columns", number(2.0)), ("courses", number(2.0))];
+    let heights = make("bricks", [64, 64], &set, 0).heights.unwrap();
+    for j in 0..32 {
+        for i in 0..64 {
+            assert_eq!(heights.at(i, j), heights.at(i + 16, j + 32), "{i},{j}");
+        }
     }
 }
 

@@ -5,8 +5,8 @@
 //! reordered, both versions give the same bits.
 
 use super::Peak;
-use crate::geometry::Vec3;
 use crate::geometry::elementary::{exp64, ln64};
+use crate::geometry::{Frame, Vec3};
 
 /// Directions handled at a time: their derivatives for a dozen peaks stay in the first-level cache.
 pub(super) const CHUNK: usize = 32;
@@ -93,21 +93,9 @@ pub(super) struct Chart {
 
 impl Chart {
     pub(super) fn about(peak: Peak) -> Self {
-        let (e1, e2) = tangents(peak.direction);
+        let Frame { tangent: e1, bitangent: e2, .. } = Frame::about(peak.direction);
         Self { peak, e1, e2, cutoff: cutoff(peak.exponent) }
     }
-}
-
-/// Two unit vectors that complete a unit vector to a right-handed frame (Duff et al. 2017).
-#[inline(always)]
-pub(super) fn tangents(d: Vec3) -> (Vec3, Vec3) {
-    let sign = 1.0_f64.copysign(d.z);
-    let a = -1.0 / (sign + d.z);
-    let b = d.x * d.y * a;
-    (
-        Vec3::new(1.0 + sign * d.x * d.x * a, sign * b, -sign * d.x),
-        Vec3::new(b, sign + d.y * d.y * a, -d.y),
-    )
 }
 
 /// The derivatives of a peak over a chunk.

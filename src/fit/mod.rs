@@ -6,10 +6,14 @@
 
 mod distribution;
 mod greedy;
+#[cfg(test)]
+mod independent;
 mod kernel;
 mod peak;
 mod problem;
 mod solver;
+#[cfg(test)]
+mod tests;
 
 pub use distribution::{Directions, Distribution};
 pub use greedy::{Fit, GreedyOptions, first_guess, fit, reconstruct};

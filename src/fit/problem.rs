@@ -3,8 +3,9 @@
 use argmin::core::{Error, Jacobian, Operator};
 use nalgebra::{DMatrix, DVector};
 
-use super::kernel::{CHUNK, Chart, PER_PEAK, Sums, accumulate_chunk, derive, tangents};
+use super::kernel::{CHUNK, Chart, PER_PEAK, Sums, accumulate_chunk, derive};
 use super::{Directions, Distribution, LeastSquares, NormalEquations, Peak};
+use crate::geometry::Frame;
 use crate::geometry::elementary::{exp64, ln64};
 
 /// Exponents stay in this range.
@@ -130,7 +131,7 @@ impl LeastSquares<Vec<Peak>> for PeakProblem<'_> {
     fn moved(&self, peaks: &Vec<Peak>, step: &DVector<f64>) -> Vec<Peak> {
         let move_one = |(p, peak): (usize, &Peak)| {
             let s = step.rows(PER_PEAK * p, PER_PEAK);
-            let (e1, e2) = tangents(peak.direction);
+            let Frame { tangent: e1, bitangent: e2, .. } = Frame::about(peak.direction);
             Peak {
                 amplitude: (peak.amplitude + s[0]).max(0.0),
                 direction: (peak.direction + e1 * s[1] + e2 * s[2]).normalize(),

@@ -1,9 +1,13 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
+mod bricks;
 mod cylinders;
+pub mod file;
 mod flat;
 mod gaussian;
+mod grid;
 mod hemispheres;
+mod relief;
 mod spectrum;
 mod twill;
 mod view;
@@ -52,6 +56,8 @@ pub fn entries() -> Vec<Entry> {
         hemispheres::ENTRY,
         cylinders::ENTRY,
         twill::ENTRY,
+        grid::ENTRY,
+        bricks::ENTRY,
         waves::ENTRY,
         gaussian::ENTRY,
     ]

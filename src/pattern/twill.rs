@@ -2,7 +2,7 @@
 //!
 //! Warp threads run along v, weft threads along u, all one pitch wide and touching their neighbours. A
 //! warp thread passes over `over` weft threads and under one; each warp thread does so one weft thread
-//! later than the one before, which gives the diagonal lines.
+//! further along v than the one before, which gives the diagonal lines of denim, up to the right.
 //!
 //! The geometry of the paper's own denim is not printed. With straight threads its count of 85 fits
 //! comes out; which weave gave its 63 fits at seven peaks is lost.
@@ -78,7 +78,8 @@ impl Weave {
     fn normal(&self, i: usize, j: usize) -> [f64; 3] {
         let (column, in_column) = self.thread(i);
         let (row, in_row) = self.thread(j);
-        let step = (column + row + self.phase) % (self.over + 1);
+        // Minus one column is plus `over` columns: the weave repeats after over + 1.
+        let step = (self.over * column + row + self.phase) % (self.over + 1);
         if step == 0 {
             // The warp dives under this one weft thread.
             let [across, along, z] = self.tube(2.0 * in_row - 1.0, 2.0 * in_column - 1.0);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 
-use super::{Film, ImageFileError};
+use super::{Film, FilmError};
 use crate::file::write_whole;
 use crate::geometry::elementary::pow64;
 
@@ -17,21 +17,23 @@ pub fn srgb(linear: f64) -> u8 {
     (255.0 * encoded + 0.5) as u8
 }
 
-/// Writes a film as a grey 8-bit PNG, its radiances multiplied by `exposure` and encoded as sRGB. The
-/// file appears whole or not at all.
-///
-/// # Errors
-/// [`ImageFileError::Write`].
-pub fn write_png(film: &Film, exposure: f64, path: &Path) -> Result<(), ImageFileError> {
-    let grey: Vec<u8> = film.pixels().iter().map(|p| srgb(f64::from(*p) * exposure)).collect();
-    put(film, &grey, ExtendedColorType::L8, path)
+impl Film {
+    /// Writes the film as a grey 8-bit PNG, its radiances multiplied by `exposure` and encoded as sRGB.
+    /// The file appears whole or not at all.
+    ///
+    /// # Errors
+    /// [`FilmError::Write`].
+    pub fn write_png(&self, exposure: f64, path: &Path) -> Result<(), FilmError> {
+        let grey: Vec<u8> = self.pixels().iter().map(|p| srgb(f64::from(*p) * exposure)).collect();
+        put(self, &grey, ExtendedColorType::L8, path)
+    }
 }
 
 /// Writes |A − R| in false colour ([`heat`]) as an 8-bit PNG; `brightest` is the error of the last
 /// colour, and everything from it on.
 ///
 /// # Errors
-/// [`ImageFileError::Write`].
+/// [`FilmError::Write`].
 ///
 /// # Panics
 /// If the films differ in size: a programming error.
@@ -40,7 +42,7 @@ pub fn write_error_png(
     reference: &Film,
     brightest: f64,
     path: &Path,
-) -> Result<(), ImageFileError> {
+) -> Result<(), FilmError> {
     let (width, height) = (reference.width(), reference.height());
     assert_eq!((test.width(), test.height()), (width, height), "shape of films");
     let error = |(a, r): (&f32, &f32)| (f64::from(*a) - f64::from(*r)).abs() / brightest;
@@ -49,18 +51,13 @@ pub fn write_error_png(
     put(reference, &colours, ExtendedColorType::Rgb8, path)
 }
 
-fn put(
-    film: &Film,
-    bytes: &[u8],
-    colour: ExtendedColorType,
-    path: &Path,
-) -> Result<(), ImageFileError> {
+fn put(film: &Film, bytes: &[u8], colour: ExtendedColorType, path: &Path) -> Result<(), FilmError> {
     let mut png = Vec::new();
     let (width, height) = (film.width() as u32, film.height() as u32);
     PngEncoder::new(&mut png)
         .write_image(bytes, width, height, colour)
-        .map_err(|error| ImageFileError::write(path, error))?;
-    write_whole(path, &png).map_err(|error| ImageFileError::write(path, error))
+        .map_err(|error| FilmError::write(path, error))?;
+    write_whole(path, &png).map_err(|error| FilmError::write(path, error))
 }
 
 /// Held to [0, 1]; what is not a number becomes 0.
@@ -144,7 +141,7 @@ mod tests {
         let reference = Film::new(2, 2, vec![0.0, 0.25, 0.5, 1.0]);
         let test = Film::new(2, 2, vec![0.0, 0.5, 0.0, 9.0]);
         let path = folder.path().join("film.png");
-        write_png(&reference, 2.0, &path).unwrap();
+        reference.write_png(2.0, &path).unwrap();
         assert_eq!(image::open(&path).unwrap().into_luma8().into_raw(), [0, 188, 255, 255]);
         let path = folder.path().join("error.png");
         write_error_png(&test, &reference, 0.5, &path).unwrap();

@@ -9,27 +9,29 @@ use exr::prelude::{
 };
 
 use super::image_file::read_image;
-use super::{Film, ImageFileError};
+use super::{Film, FilmError};
 use crate::file::write_whole;
 
-/// Writes a film; the file appears whole or not at all.
-///
-/// # Errors
-/// [`ImageFileError`] if the film has no pixels or the file cannot be written.
-pub fn write_film(film: &Film, path: &Path) -> Result<(), ImageFileError> {
-    let bytes = exr_bytes(film).map_err(|error| ImageFileError::write(path, error))?;
-    write_whole(path, &bytes).map_err(|error| ImageFileError::write(path, error))
-}
+impl Film {
+    /// Writes the film as an EXR file, which appears whole or not at all.
+    ///
+    /// # Errors
+    /// [`FilmError`] if the film has no pixels or the file cannot be written.
+    pub fn write_exr(&self, path: &Path) -> Result<(), FilmError> {
+        let bytes = exr_bytes(self).map_err(|error| FilmError::write(path, error))?;
+        write_whole(path, &bytes).map_err(|error| FilmError::write(path, error))
+    }
 
-/// Reads a film that [`write_film`] wrote, or any image file of one channel.
-///
-/// # Errors
-/// [`ImageFileError`] if there is no such file, it is no image, or it has more than one channel.
-pub fn read_film(path: &Path) -> Result<Film, ImageFileError> {
-    let mut channels = read_image(path)?.channels;
-    match (channels.pop(), channels.is_empty()) {
-        (Some(film), true) => Ok(film),
-        _ => Err(ImageFileError::NotOneChannel { path: PathBuf::from(path) }),
+    /// Reads a film that [`Film::write_exr`] wrote, or any image file of one channel.
+    ///
+    /// # Errors
+    /// [`FilmError`] if there is no such file, it is no image, or it has more than one channel.
+    pub fn read_exr(path: &Path) -> Result<Self, FilmError> {
+        let mut channels = read_image(path)?.channels;
+        match (channels.pop(), channels.is_empty()) {
+            (Some(film), true) => Ok(film),
+            _ => Err(FilmError::NotOneChannel { path: PathBuf::from(path) }),
+        }
     }
 }
 
@@ -62,8 +64,8 @@ mod tests {
             let film = Film::new(width, height, pixels);
             let folder = tempfile::tempdir().unwrap();
             let path = folder.path().join("film.exr");
-            write_film(&film, &path).unwrap();
-            let back = read_film(&path).unwrap();
+            film.write_exr(&path).unwrap();
+            let back = Film::read_exr(&path).unwrap();
             prop_assert_eq!((back.width(), back.height()), (width, height));
             let same = film.pixels().iter().zip(back.pixels()).all(|(a, b)| a.to_bits() == b.to_bits());
             prop_assert!(same);
@@ -82,14 +84,14 @@ mod tests {
     fn errors_name_the_file_and_say_what_is_wrong() {
         let folder = tempfile::tempdir().unwrap();
         let missing = folder.path().join("missing.exr");
-        let error = read_film(&missing).unwrap_err().to_string();
+        let error = Film::read_exr(&missing).unwrap_err().to_string();
         assert!(error.contains("missing.exr") && error.contains("No such file"), "{error}");
         let broken = folder.path().join("broken.exr");
         std::fs::write(&broken, b"not an image").unwrap();
-        let error = read_film(&broken).unwrap_err().to_string();
+        let error = Film::read_exr(&broken).unwrap_err().to_string();
         assert!(error.contains("broken.exr"), "{error}");
         let empty = Film::new(0, 3, Vec::new());
-        let error = write_film(&empty, &missing).unwrap_err().to_string();
+        let error = empty.write_exr(&missing).unwrap_err().to_string();
         assert!(error.contains("no pixels"), "{error}");
         assert!(!missing.exists());
     }

@@ -29,7 +29,7 @@ pub enum Coding {
 
 /// Why an image file could not be read or written.
 #[derive(Debug, thiserror::Error)]
-pub enum ImageFileError {
+pub enum FilmError {
     /// It could not be read.
     #[error("{}: cannot read the image: {reason}", path.display())]
     Read {
@@ -54,7 +54,7 @@ pub enum ImageFileError {
     },
 }
 
-impl ImageFileError {
+impl FilmError {
     pub(super) fn read(path: &Path, reason: impl Display) -> Self {
         Self::Read { path: path.to_owned(), reason: reason.to_string() }
     }
@@ -67,18 +67,18 @@ impl ImageFileError {
 /// Reads an EXR, HDR, PNG, WebP or TIFF file; its kind is found from its first bytes.
 ///
 /// # Errors
-/// [`ImageFileError::Read`] if there is no such file, it is of another kind, or it is damaged.
-pub fn read_image(path: &Path) -> Result<StoredImage, ImageFileError> {
-    let bytes = std::fs::read(path).map_err(|error| ImageFileError::read(path, error))?;
+/// [`FilmError::Read`] if there is no such file, it is of another kind, or it is damaged.
+pub fn read_image(path: &Path) -> Result<StoredImage, FilmError> {
+    let bytes = std::fs::read(path).map_err(|error| FilmError::read(path, error))?;
     if bytes.starts_with(&EXR_MAGIC) {
         read_exr(path, &bytes)
     } else {
         let reader = ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
-        let reader = reader.map_err(|error| ImageFileError::read(path, error))?;
+        let reader = reader.map_err(|error| FilmError::read(path, error))?;
         if reader.format().is_none() {
-            return Err(ImageFileError::read(path, "it is no EXR, HDR, PNG, WebP or TIFF file"));
+            return Err(FilmError::read(path, "it is no EXR, HDR, PNG, WebP or TIFF file"));
         }
-        let image = reader.decode().map_err(|error| ImageFileError::read(path, error))?;
+        let image = reader.decode().map_err(|error| FilmError::read(path, error))?;
         Ok(from_dynamic(&image))
     }
 }
@@ -86,7 +86,7 @@ pub fn read_image(path: &Path) -> Result<StoredImage, ImageFileError> {
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// The first layer with channels `Y`, or `R`, `G` and `B`, or with a single channel of any name.
-fn read_exr(path: &Path, bytes: &[u8]) -> Result<StoredImage, ImageFileError> {
+fn read_exr(path: &Path, bytes: &[u8]) -> Result<StoredImage, FilmError> {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -95,9 +95,9 @@ fn read_exr(path: &Path, bytes: &[u8]) -> Result<StoredImage, ImageFileError> {
         .all_attributes()
         .non_parallel()
         .from_buffered(std::io::Cursor::new(bytes))
-        .map_err(|error| ImageFileError::read(path, exr_reason(&error)))?;
+        .map_err(|error| FilmError::read(path, exr_reason(&error)))?;
     let channels = exr_channels(&image).ok_or_else(|| {
-        ImageFileError::read(path, "it has neither a channel Y nor channels R, G and B")
+        FilmError::read(path, "it has neither a channel Y nor channels R, G and B")
     })?;
     Ok(StoredImage { channels, coding: Coding::Linear })
 }

@@ -12,10 +12,9 @@ mod sampler;
 mod view;
 
 pub use camera::{Camera, direction};
-pub use display::{heat, srgb, write_error_png, write_png};
+pub use display::{heat, srgb, write_error_png};
 pub use film::Film;
-pub use film_file::{read_film, write_film};
-pub use image_file::{Coding, ImageFileError, StoredImage, read_image};
+pub use image_file::{Coding, FilmError, StoredImage, read_image};
 pub use probe::true_distribution;
 pub use reference::{Converged, average};
 pub use renderer::{Cancelled, render};

@@ -31,7 +31,7 @@ pub use method::MethodSpec;
 pub use reference::ReferenceSpec;
 pub use scene::{CameraSpec, ImageSpec, LightSpec, Shape};
 pub use sweep::{Scale, SweepSpec};
-pub use texture::{Green, Reading, TextureSource, TextureSpec, Zero};
+pub use texture::{Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
 use catalogue::Catalogue;

@@ -7,6 +7,7 @@ use super::limits::Limits;
 use super::reader::Reader;
 use super::values::read_values;
 use crate::parameter::Values;
+use crate::texture::image_file::{Green, Zero};
 use crate::texture::{Interpolation, Wrap};
 
 /// A texture of the sweep.
@@ -64,24 +65,6 @@ pub enum Reading {
         /// Height of white, in sides of a texel; negative turns bumps into dents.
         scale: f64,
     },
-}
-
-/// Which way the green channel of a normal map is positive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Green {
-    /// Towards the top of the picture ("OpenGL").
-    Up,
-    /// Towards the bottom of the picture ("DirectX").
-    Down,
-}
-
-/// Which code of a normal map's channel stands for a coordinate of 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Zero {
-    /// Half of white, which no 8-bit code is: a coordinate is 2c − 1 with c in [0, 1].
-    Half,
-    /// The 8-bit code 128, or its like in 16 bits: a coordinate is (code − 128) / 127.
-    Code128,
 }
 
 /// Texels along a side of a pattern.
@@ -173,7 +156,7 @@ fn read_reading(reader: &Reader) -> Reading {
         Reading::Height { scale }
     } else {
         let green = reader.choice("green", &[("up", Green::Up), ("down", Green::Down)]);
-        let zero = reader.choice("zero", &[("half", Zero::Half), ("128", Zero::Code128)]);
+        let zero = reader.choice("zero", &[("half", Zero::Middle), ("128", Zero::Above)]);
         Reading::Normal { green, zero }
     }
 }
