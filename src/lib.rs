@@ -13,6 +13,7 @@
 
 pub mod cli;
 pub mod experiment;
+pub mod file;
 pub mod fit;
 pub mod geometry;
 pub mod light;
