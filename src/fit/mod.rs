@@ -1,1 +1,24 @@
-//! Floor 2: fitting Phong peaks to a distribution of normals.
+//! Floor 2: fitting Phong peaks to a distribution of normals (Fournier 1992 §2).
+//!
+//! [`Directions`] are where a distribution is known; [`Distribution`] is what a region's normals make
+//! of it; [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
+//! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
+
+mod distribution;
+mod greedy;
+#[cfg(test)]
+mod independent;
+mod kernel;
+mod peak;
+mod problem;
+mod solver;
+#[cfg(test)]
+mod tests;
+
+pub use distribution::{Directions, Distribution};
+pub use greedy::{Fit, GreedyOptions, first_guess, fit, reconstruct};
+pub use peak::{InputError, Peak, merged};
+pub use problem::PeakProblem;
+pub use solver::{
+    LeastSquares, LevenbergMarquardt, NormalEquations, Settings, Solution, Termination, solve,
+};

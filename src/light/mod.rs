@@ -1,1 +1,62 @@
 //! Floor 3: lights.
+
+use crate::geometry::Vec3;
+
+/// Where light comes from. Light is not coloured: one number a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// A light infinitely far away.
+    Directional {
+        /// Unit direction *to* the light, world space.
+        direction: Vec3,
+        /// Irradiance E on a plane that faces it.
+        irradiance: f64,
+    },
+    /// A small light nearby, the same in all directions.
+    Point {
+        /// Where it is, world space.
+        position: Vec3,
+        /// Radiant intensity I: E = I / r² on a plane that faces it at distance r.
+        intensity: f64,
+    },
+}
+
+impl Light {
+    /// Its name in specs and reports.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Directional { .. } => "directional",
+            Self::Point { .. } => "point",
+        }
+    }
+
+    /// The unit direction from `point` to the light, and the irradiance there on a plane facing it.
+    /// At the light itself there is none.
+    #[inline(always)]
+    pub fn seen_from(&self, point: Vec3) -> (Vec3, f64) {
+        match *self {
+            Self::Directional { direction, irradiance } => (direction, irradiance),
+            Self::Point { position, intensity } => {
+                let to = position - point;
+                let square = to.norm_squared();
+                if square > 0.0 {
+                    (to / square.sqrt(), intensity / square)
+                } else {
+                    (Vec3::z(), 0.0)
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_light_falls_with_the_square() {
+        let light = Light::Point { position: Vec3::new(0.0, 0.0, 2.0), intensity: 8.0 };
+        assert_eq!(light.seen_from(Vec3::zeros()), (Vec3::z(), 2.0));
+        assert_eq!(light.seen_from(Vec3::new(0.0, 0.0, 2.0)).1, 0.0);
+    }
+}

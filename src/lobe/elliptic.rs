@@ -31,15 +31,16 @@ pub enum Profile {
     Ggx,
 }
 
-/// D(h) = amplitude · P(x) / (h·axis)⁴ for h above the plane across the axis, else 0, with
-/// x = h's slopes about the axis.
+/// D(h) = amplitude · P(x − b) / (h·pole)⁴ for h above the plane across the pole, else 0, with x the
+/// slopes of h about the pole and b the mean slope.
 ///
-/// Its vector moment along the axis, ∫ D(h) (h·axis) dω, is `amplitude`: P integrates to 1.
+/// Its vector moment along the pole, ∫ D(h) (h·pole) dω, is `amplitude`: P integrates to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipticLobe {
-    axis: V3,
+    pole: V3,
     tangent: V3,
     bitangent: V3,
+    mean: [f32; 2],
     spread: Sym2,
     inverse: Sym2,
     peak: f32,
@@ -47,12 +48,12 @@ pub struct EllipticLobe {
 }
 
 impl EllipticLobe {
-    /// The lobe about `axis` (any length) with spread matrix `spread` in the frame that the smallest
-    /// rotation from z carries to the axis.
+    /// The lobe about `pole` (any length), its mean slope 0, with spread matrix `spread` in the frame
+    /// that the smallest rotation from z carries to the pole.
     #[inline(always)]
-    pub fn new(axis: V3, spread: Sym2, amplitude: f32, profile: Profile) -> Self {
-        let axis = unit(axis);
-        let (tangent, bitangent) = tangents(axis);
+    pub fn new(pole: V3, spread: Sym2, amplitude: f32, profile: Profile) -> Self {
+        let pole = unit(pole);
+        let (tangent, bitangent) = tangents(pole);
         let (inverse, determinant) = invert(spread);
         let at_zero = match profile {
             Profile::Student { exponent: s } => (s + 2.0) / (TAU * s),
@@ -60,15 +61,16 @@ impl EllipticLobe {
             Profile::Ggx => 1.0 / PI,
         };
         let peak = amplitude * at_zero / determinant.sqrt();
-        Self { axis, tangent, bitangent, spread, inverse, peak, profile }
+        Self { pole, tangent, bitangent, mean: [0.0; 2], spread, inverse, peak, profile }
     }
 
-    /// Its axis, of unit length.
-    pub fn axis(&self) -> V3 {
-        self.axis
+    /// The same lobe with mean slope `mean` about its pole.
+    #[inline(always)]
+    pub fn with_mean(self, mean: [f32; 2]) -> Self {
+        Self { mean, ..self }
     }
 
-    /// Its spread matrix about the axis (see [`Profile`]).
+    /// Its spread matrix about the pole (see [`Profile`]).
     pub fn spread(&self) -> Sym2 {
         self.spread
     }
@@ -82,13 +84,13 @@ impl EllipticLobe {
 impl Spread for EllipticLobe {
     #[inline(always)]
     fn density(&self, h: V3) -> f32 {
-        let cosine = dot(h, self.axis);
+        let cosine = dot(h, self.pole);
         let inverse_cosine = 1.0 / cosine.max(f32::MIN_POSITIVE);
         let x = dot(h, self.tangent) * inverse_cosine;
         let y = dot(h, self.bitangent) * inverse_cosine;
-        let q = quadratic(self.inverse, x, y).max(0.0);
+        let q = quadratic(self.inverse, x - self.mean[0], y - self.mean[1]).max(0.0);
         let t = x * x + y * y;
-        // 1 / (h·axis)⁴ of a unit h.
+        // 1 / (h·pole)⁴ of a unit h.
         let secant4 = (1.0 + t) * (1.0 + t);
         let fall = match self.profile {
             Profile::Student { exponent: s } => {
@@ -108,12 +110,10 @@ impl Spread for EllipticLobe {
             Profile::Gaussian => (2.0, false),
             Profile::Ggx => (1.0, true),
         };
-        Facet {
-            axis: self.axis,
-            tangent: self.tangent,
-            bitangent: self.bitangent,
-            alpha_squared: self.spread.map(|m| scale * m),
-            ggx,
-        }
+        let [x, y] = self.mean;
+        let axis =
+            unit([0, 1, 2].map(|c| self.pole[c] + x * self.tangent[c] + y * self.bitangent[c]));
+        let (tangent, bitangent) = tangents(axis);
+        Facet { axis, tangent, bitangent, alpha_squared: self.spread.map(|m| scale * m), ggx }
     }
 }

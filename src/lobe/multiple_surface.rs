@@ -5,9 +5,9 @@ use arrayvec::ArrayVec;
 use super::vector::V3;
 use super::{EllipticLobe, Facet, PearsonLobe, PedalLobe, PhongPeak, Shading, Spread};
 
-/// The most lobes a footprint can have: 7 peaks a texel, 4 texels, 2 levels (Fournier 1992 §2.4), and
-/// the unfiltered lobe that magnification blends in.
-pub const CAPACITY: usize = 7 * 4 * 2 + 1;
+/// The most lobes a footprint can have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2 levels,
+/// and the unfiltered lobe that magnification blends in.
+pub const CAPACITY: usize = 12 * 4 * 2 + 1;
 
 /// Any lobe, its amplitude included.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -24,6 +24,8 @@ const CARD: Card = Card {
     formula: "one base lobe about the normal of the mean slope",
     limits: "the roughness of the bumps it averages away is lost: highlights stay sharp",
     normalised: true,
+    keeps_roughness: false,
+    precision: 1e-3,
 };
 
 /// The registry's line.

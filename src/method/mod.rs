@@ -6,12 +6,15 @@
 
 mod averaged;
 mod batch;
+pub mod fournier;
+mod olano_north;
 mod one_lobe;
 mod registry;
+mod schilling;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
-pub use registry::{Entry, build, entries, find};
+pub use registry::{Entry, brute_force, build, entries, find};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
 use crate::texture::{Footprint, NormalMap};
@@ -32,6 +35,11 @@ pub struct Card {
     /// Whether its lobes keep the energy of the footprint (see [`crate::lobe`]); false for forms
     /// printed without a normalisation.
     pub normalised: bool,
+    /// Whether bumps that fall into one footprint widen its lobes.
+    pub keeps_roughness: bool,
+    /// How exactly its numbers hold what it claims (energy, variance), as a relative error: rounding
+    /// for closed forms, the stopping rule for fits.
+    pub precision: f64,
 }
 
 /// Why a method does not take a base lobe, as a sentence for the report's empty cell.

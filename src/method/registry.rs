@@ -1,6 +1,6 @@
 //! The list of methods. A new one is a file and a line here.
 
-use super::{Card, Method, averaged, unfiltered};
+use super::{Card, Method, averaged, fournier, olano_north, schilling, unfiltered};
 use crate::parameter::{Parameter, Values};
 
 /// A method the program knows: what it is, what it takes, how to make one.
@@ -15,7 +15,10 @@ pub struct Entry {
 
 /// Every method, in the order reports show them.
 pub fn entries() -> Vec<Entry> {
-    vec![unfiltered::entry(), averaged::entry()]
+    let mut all = vec![unfiltered::entry(), averaged::entry(), fournier::entry()];
+    all.extend(schilling::entries());
+    all.extend(olano_north::entries());
+    all
 }
 
 /// The method of this name.
@@ -26,4 +29,9 @@ pub fn find(name: &str) -> Option<Entry> {
 /// The method of this name with its default options.
 pub fn build(name: &str) -> Option<Box<dyn Method>> {
     find(name).map(|entry| (entry.build)(&Values::defaults(entry.parameters)))
+}
+
+/// The method that, with many samples a pixel, is the supersampled truth.
+pub fn brute_force() -> Box<dyn Method> {
+    Box::new(unfiltered::Unfiltered)
 }

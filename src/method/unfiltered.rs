@@ -20,6 +20,8 @@ const CARD: Card = Card {
     formula: "one base lobe about the interpolated normal",
     limits: "aliases: a pixel sees one normal of the many it covers",
     normalised: true,
+    keeps_roughness: false,
+    precision: 1e-3,
 };
 
 /// The registry's line.

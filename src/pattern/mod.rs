@@ -1,5 +1,18 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
+mod bricks;
+mod cylinders;
+pub mod file;
+mod flat;
+mod gaussian;
+mod grid;
+mod hemispheres;
+mod relief;
+mod spectrum;
+mod twill;
+mod view;
+mod waves;
+
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
 
@@ -38,7 +51,16 @@ pub struct Bumps {
 
 /// Every pattern, in the order lists show them.
 pub fn entries() -> Vec<Entry> {
-    vec![]
+    vec![
+        flat::ENTRY,
+        hemispheres::ENTRY,
+        cylinders::ENTRY,
+        twill::ENTRY,
+        grid::ENTRY,
+        bricks::ENTRY,
+        waves::ENTRY,
+        gaussian::ENTRY,
+    ]
 }
 
 /// The pattern of this name.

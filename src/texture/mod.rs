@@ -2,6 +2,7 @@
 
 mod footprint;
 mod height_map;
+pub mod image_file;
 mod normal_map;
 mod pyramid;
 mod wrap;

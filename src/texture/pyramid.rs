@@ -12,8 +12,15 @@ use super::{NormalMap, Texel};
 
 /// The numbers a method averages: how a texel of the normal map becomes `C` channels.
 pub trait Moments<const C: usize>: Send + Sync {
-    /// The channels of a single texel. Everything a coarser level holds is an average of these.
+    /// The moments of a single texel. Everything a coarser level holds is an average of these.
     fn encode(&self, texel: Texel) -> [f32; C];
+
+    /// What is kept of averaged moments, and interpolated by lookups: the moments themselves unless
+    /// a method's paper stores something else.
+    #[inline(always)]
+    fn store(&self, moments: [f32; C]) -> [f32; C] {
+        moments
+    }
 }
 
 /// The sizes of all levels from the map's own down to 1 × 1; each side is half of the one below,
@@ -93,6 +100,9 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
             };
             levels.push(Level { width: to.0, height: to.1, texels });
         }
+        for level in &mut levels {
+            level.texels.par_iter_mut().for_each(|cell| *cell = moments.store(*cell));
+        }
         Self { moments, levels }
     }
 
@@ -114,7 +124,7 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
     /// All cells of `level`, row by row from v = 0.
     pub fn cells(&self, map: &NormalMap, level: usize) -> Vec<[f32; C]> {
         match level {
-            0 => map.texels().iter().map(|&t| self.moments.encode(t)).collect(),
+            0 => map.texels().iter().map(|&t| self.moments.store(self.moments.encode(t))).collect(),
             _ => self.levels[level - 1].texels.clone(),
         }
     }
@@ -126,7 +136,7 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
         if level == 0 {
             let across = wrap.taps(u, map.width());
             let along = wrap.taps(v, map.height());
-            bilinear(across, along, |i, j| self.moments.encode(map.texel(i, j)))
+            bilinear(across, along, |i, j| self.moments.store(self.moments.encode(map.texel(i, j))))
         } else {
             let Level { width, height, texels } = &self.levels[level - 1];
             let (across, along) = (wrap.taps(u, *width), wrap.taps(v, *height));

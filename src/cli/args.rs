@@ -1,0 +1,152 @@
+//! Arguments, as written on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as ArgGroup, Parser, Subcommand};
+
+/// wrinkle's arguments.
+#[derive(Debug, Parser)]
+#[command(
+    name = "wrinkle",
+    version,
+    about = "Measures filters for bump maps and normal maps against supersampled truth.",
+    after_help = "Examples:
+  wrinkle run                         the default experiment; its report goes to reports/highlight/
+  wrinkle run quick                   a few seconds' work
+  wrinkle render my_normals.png --method fournier --out look.png
+  wrinkle list                        experiments, methods, patterns, surfaces",
+    disable_help_subcommand = true
+)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run experiments and write their reports.
+    Run(RunArgs),
+    /// Show the experiments, methods, patterns and surfaces there are.
+    List(ListArgs),
+    /// Render one image.
+    Render(RenderArgs),
+    /// Score one image against another.
+    Compare(CompareArgs),
+}
+
+/// Arguments of `run`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle run                         the default experiment, `highlight`
+  wrinkle run quick highlight         two experiments, one after the other
+  wrinkle run my/experiment.toml --out results --threads 8
+
+Results are kept as they come. Interrupt with Ctrl-C; the same command goes on where it stopped.")]
+pub struct RunArgs {
+    /// Experiments: names of files in experiments/ without `.toml`, or paths of such files.
+    #[arg(value_name = "NAME|FILE", default_value = "highlight")]
+    pub experiments: Vec<String>,
+    /// Folder that reports go to, one folder an experiment.
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// Threads to use; all cores if not given. Results are the same at any number.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Print a summary as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `list`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle list
+  wrinkle list --json")]
+pub struct ListArgs {
+    /// Print as JSON, options included.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `render`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle render my_normals.png --method schilling-anisotropic --out look.png
+  wrinkle render quick --texture small-twill --method fournier --spp 4 --out twill.exr
+  wrinkle render height.png --kind height --height-scale 8 --texels-per-pixel 2 --out h.png")]
+pub struct RenderArgs {
+    /// An experiment (name or TOML file), or an image file that holds a normal or height map.
+    #[arg(value_name = "FILE")]
+    pub file: String,
+    /// The filter; `wrinkle list` shows them.
+    #[arg(long, value_name = "M", default_value = "unfiltered")]
+    pub method: String,
+    /// Samples a pixel.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub spp: u32,
+    /// The image to write: PNG (exposed, 8-bit sRGB) or EXR (linear, 32-bit float).
+    #[arg(long, value_name = "IMAGE")]
+    pub out: PathBuf,
+    /// Which texture of the experiment; its first if not given.
+    #[arg(long, value_name = "NAME")]
+    pub texture: Option<String>,
+    /// Texels across a pixel at the image's centre; the experiment's first scale, or 4, if not given.
+    #[arg(long, value_name = "X")]
+    pub texels_per_pixel: Option<f64>,
+    /// Width and height of the image; the experiment's, or 640x480, if not given.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(usize, usize)>,
+    /// What the image file holds.
+    #[arg(long, default_value = "normal", value_parser = ["normal", "height"])]
+    pub kind: String,
+    /// Which way green is up in the normal map.
+    #[arg(long, default_value = "up", value_parser = ["up", "down"])]
+    pub green: String,
+    /// Height of white in the height map, in texels.
+    #[arg(long, value_name = "H", default_value_t = 8.0)]
+    pub height_scale: f64,
+    /// Exposure of a PNG: radiance is multiplied by it. Chosen from the image if not given.
+    #[arg(long, value_name = "E")]
+    pub exposure: Option<f64>,
+}
+
+/// Arguments of `compare`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle compare mine.exr reference.exr
+  wrinkle compare mine.png reference.png --fail-above rmse=0.01
+  wrinkle compare a.exr b.exr --json")]
+pub struct CompareArgs {
+    /// The image to score.
+    #[arg(value_name = "A")]
+    pub test: PathBuf,
+    /// The image it is scored against.
+    #[arg(value_name = "B")]
+    pub reference: PathBuf,
+    /// Exit with 1 if this metric is above this value; may be given more than once.
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = parse_limit)]
+    pub fail_above: Vec<(String, f64)>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn parse_size(text: &str) -> Result<(usize, usize), String> {
+    let (width, height) = text.split_once('x').ok_or("write it as 640x480")?;
+    let side = |side: &str| match side.parse() {
+        Ok(pixels @ 1..=4096) => Ok(pixels),
+        _ => Err(format!("`{side}` is not a whole number from 1 to 4096")),
+    };
+    Ok((side(width)?, side(height)?))
+}
+
+fn parse_limit(text: &str) -> Result<(String, f64), String> {
+    let (metric, value) = text.split_once('=').ok_or("write it as rmse=0.01")?;
+    let value: f64 = value.parse().map_err(|_| format!("`{value}` is not a number"))?;
+    if value.is_nan() {
+        return Err("a limit cannot be NaN".into());
+    }
+    Ok((metric.to_owned(), value))
+}

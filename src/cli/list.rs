@@ -1,0 +1,107 @@
+//! `wrinkle list`: what there is.
+
+use serde_json::{Value as Json, json};
+
+use super::Exit;
+use super::args::ListArgs;
+use super::exit::Failure;
+use super::experiments;
+use crate::experiment::spec::Spec;
+use crate::parameter::{Domain, Parameter};
+use crate::{method, pattern};
+
+/// Surfaces, with what they are.
+const SURFACES: [(&str, &str); 2] = [
+    ("plane", "the plane z = 0, tiled without end"),
+    ("sphere", "the unit sphere, u along longitude and v along latitude"),
+];
+
+/// Prints experiments, methods, patterns and surfaces.
+pub(super) fn list(args: &ListArgs) -> Result<Exit, Failure> {
+    if args.json {
+        println!("{:#}", as_json());
+    } else {
+        for (heading, rows) in sections() {
+            let bold = anstyle::Style::new().bold();
+            anstream::println!("{bold}{heading}{bold:#}");
+            let widest = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+            for (name, what) in rows {
+                anstream::println!("  {name:widest$}  {what}");
+            }
+            anstream::println!();
+        }
+    }
+    Ok(Exit::Done)
+}
+
+fn sections() -> [(&'static str, Vec<(String, String)>); 4] {
+    let experiments = experiments::names()
+        .into_iter()
+        .map(|name| {
+            let path = std::path::Path::new(experiments::FOLDER).join(format!("{name}.toml"));
+            let what = Spec::load(&path).map_or("has errors: run it to see them".into(), |s| s.title);
+            (name, what)
+        })
+        .collect();
+    let methods = method::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
+    let patterns =
+        pattern::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
+    let surfaces = SURFACES.into_iter().map(|(name, what)| (name.into(), what.into()));
+    [
+        ("Experiments (wrinkle run NAME)", experiments),
+        ("Methods", methods.collect()),
+        ("Patterns", patterns.collect()),
+        ("Surfaces", surfaces.collect()),
+    ]
+}
+
+fn as_json() -> Json {
+    let methods: Vec<Json> = method::entries()
+        .iter()
+        .map(|e| {
+            json!({
+                "name": e.card.name, "source": e.card.source, "summary": e.card.summary,
+                "formula": e.card.formula, "limits": e.card.limits,
+                "parameters": parameters(e.parameters),
+            })
+        })
+        .collect();
+    let patterns: Vec<Json> = pattern::entries()
+        .iter()
+        .map(|e| {
+            json!({
+                "name": e.card.name, "source": e.card.source, "summary": e.card.summary,
+                "parameters": parameters(e.parameters),
+            })
+        })
+        .collect();
+    let surfaces: Vec<Json> = SURFACES
+        .iter()
+        .map(|(name, what)| json!({ "name": name, "summary": what }))
+        .collect();
+    json!({
+        "experiments": experiments::names(),
+        "methods": methods,
+        "patterns": patterns,
+        "surfaces": surfaces,
+    })
+}
+
+fn parameters(list: &[Parameter]) -> Vec<Json> {
+    list.iter()
+        .map(|p| {
+            let domain = match p.domain {
+                Domain::Real { default, min, max } => {
+                    json!({ "type": "real", "default": default, "min": min, "max": max })
+                }
+                Domain::Whole { default, min, max } => {
+                    json!({ "type": "whole", "default": default, "min": min, "max": max })
+                }
+                Domain::Choice { words } => {
+                    json!({ "type": "choice", "default": words[0], "choices": words })
+                }
+            };
+            json!({ "name": p.name, "meaning": p.meaning, "domain": domain })
+        })
+        .collect()
+}

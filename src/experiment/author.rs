@@ -1,0 +1,246 @@
+//! From a spec to entities: the author of the world.
+
+use bevy_ecs::prelude::*;
+
+use super::spec::{LightSpec, Reading as ReadingSpec, Scale, Shape as ShapeSpec, Spec, TextureSource, TextureSpec};
+use crate::light::Light;
+use crate::lobe::BaseLobe;
+use crate::method;
+use crate::pattern::{self, Bumps};
+use crate::render::{Camera, direction};
+use crate::scene::{
+    BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
+    ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
+};
+use crate::surface::{Plane, Shape, Sphere};
+use crate::texture::Wrap;
+use crate::texture::image_file::{HeightReading, NormalReading};
+
+/// The entities of an experiment, in the order of its spec.
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    /// One a texture.
+    pub textures: Vec<Entity>,
+    /// The scenes, texture by texture, so that a texture's maps can be let go when its scenes are done.
+    pub scenes: Vec<PlannedScene>,
+}
+
+/// A scene of the sweep.
+#[derive(Clone, Debug)]
+pub struct PlannedScene {
+    /// The scene.
+    pub entity: Entity,
+    /// Index of its texture in the spec.
+    pub texture: usize,
+    /// What its texture is made of, as text (see [`super::keys`]).
+    pub texture_key: String,
+    /// Its base lobe.
+    pub base: BaseLobe,
+    /// How its texture is laid.
+    pub tiling: Tiling,
+    /// Distance of its camera.
+    pub distance: f64,
+    /// A file-name-safe identifier, unique in the experiment.
+    pub slug: String,
+    /// Its prefilters, one a method in the spec's order.
+    pub prefilters: Vec<Entity>,
+    /// Its trials, method by method.
+    pub trials: Vec<PlannedTrial>,
+}
+
+/// A trial of a scene.
+#[derive(Clone, Debug)]
+pub struct PlannedTrial {
+    /// The trial.
+    pub entity: Entity,
+    /// Index of its method in the spec.
+    pub method: usize,
+    /// Samples a pixel.
+    pub spp: u32,
+}
+
+/// Spawns all entities of the experiment.
+pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
+    let world = &mut stage.world;
+    let textures: Vec<Entity> = spec.sweep.textures.iter().map(|t| spawn_texture(world, t)).collect();
+    let strategies: Vec<Entity> = spec
+        .sweep
+        .methods
+        .iter()
+        .map(|m| {
+            let entry = method::find(m.name).expect("the spec names registered methods");
+            world.spawn((Name::new(m.label.clone()), Strategy((entry.build)(&m.values)))).id()
+        })
+        .collect();
+    let materials: Vec<(BaseLobe, Entity)> = spec
+        .sweep
+        .lobes
+        .iter()
+        .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
+        .collect();
+    let surface = world.spawn(SurfaceShape(shape(spec.surface))).id();
+    let light = world.spawn(LightSource(lit(&spec.light))).id();
+    let placements: Vec<Placement> =
+        placements(spec).into_iter().map(|(pose, tiling)| Placement::spawn(world, pose, tiling)).collect();
+
+    let mut plan = Plan { textures, scenes: Vec::new() };
+    for (index, &texture) in plan.textures.iter().enumerate() {
+        let texture_key = super::keys::texture(&spec.sweep.textures[index]);
+        for &(base, material) in &materials {
+            let prefilters: Vec<Entity> = strategies
+                .iter()
+                .map(|&strategy| world.spawn(PrefilterOf { texture, strategy, material }).id())
+                .collect();
+            for placement in &placements {
+                let of = SceneOf { texture, surface, camera: placement.camera, light, material };
+                let slug = slug(spec, index, &base, placement);
+                let scene = spawn_scene(world, spec, of, placement.tiling);
+                plan.scenes.push(PlannedScene {
+                    entity: scene,
+                    texture: index,
+                    texture_key: texture_key.clone(),
+                    base,
+                    tiling: placement.tiling,
+                    distance: placement.distance,
+                    slug,
+                    trials: spawn_trials(world, spec, scene, &prefilters),
+                    prefilters: prefilters.clone(),
+                });
+            }
+        }
+    }
+    plan
+}
+
+/// A camera, and how the texture is laid before it.
+struct Placement {
+    camera: Entity,
+    distance: f64,
+    tiling: Tiling,
+}
+
+impl Placement {
+    fn spawn(world: &mut World, pose: CameraPose, tiling: Tiling) -> Self {
+        Self { camera: world.spawn(pose).id(), distance: pose.distance, tiling }
+    }
+}
+
+fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
+    let pose = |distance: f64| {
+        let (at, image) = (&spec.camera, &spec.image);
+        let camera = Camera::orbiting(
+            distance, at.elevation, at.azimuth, at.fov, image.width, image.height,
+        );
+        CameraPose { camera, distance }
+    };
+    match &spec.sweep.scale {
+        Scale::TexelsPerPixel(list) => list
+            .iter()
+            .map(|&texels| (pose(spec.camera.distance), Tiling::TexelsPerPixel(texels)))
+            .collect(),
+        Scale::Distance { distances, tiles } => {
+            distances.iter().map(|&distance| (pose(distance), Tiling::Tiles(*tiles))).collect()
+        }
+    }
+}
+
+fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> Entity {
+    let centre = [spec.image.width / 2, spec.image.height / 2];
+    // Beside the centre, a pixel halfway to the image's corner, where the highlight fades.
+    let aside = [spec.image.width / 4, spec.image.height / 4];
+    let reference =
+        ReferencePlan { spp: spec.reference.spp, replicates: spec.reference.replicates };
+    world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+}
+
+fn spawn_trials(
+    world: &mut World,
+    spec: &Spec,
+    scene: Entity,
+    prefilters: &[Entity],
+) -> Vec<PlannedTrial> {
+    let mut trials = Vec::new();
+    for (method, (of, &prefilter)) in spec.sweep.methods.iter().zip(prefilters).enumerate() {
+        for &spp in spec.sweep.spp_of(of) {
+            let entity = world.spawn((TrialOf { scene, prefilter }, Spp(spp))).id();
+            trials.push(PlannedTrial { entity, method, spp });
+        }
+    }
+    trials
+}
+
+fn spawn_texture(world: &mut World, spec: &TextureSpec) -> Entity {
+    let name = Name::new(spec.name.clone());
+    let spec = spec.clone();
+    let source = BumpSource(Box::new(move || load(&spec)));
+    world.spawn((Texture, name, source)).id()
+}
+
+/// Makes or reads a texture's bumps.
+///
+/// # Errors
+/// What is wrong with its file.
+pub fn load(spec: &TextureSpec) -> Result<Bumps, LoadError> {
+    let mut bumps = match &spec.source {
+        TextureSource::Pattern { name, width, height, values, seed } => {
+            let entry = pattern::find(name).expect("the spec names registered patterns");
+            (entry.build)(*width, *height, values, *seed)
+        }
+        TextureSource::File { path, reading, .. } => {
+            let reading = reading_of(reading, spec.wrap);
+            pattern::file::read(path, &reading).map_err(|error| LoadError(error.to_string()))?
+        }
+    };
+    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    Ok(bumps)
+}
+
+fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
+    match *spec {
+        ReadingSpec::Normal { green, zero } => {
+            pattern::file::Reading::Normals(NormalReading { green, zero, wrap })
+        }
+        ReadingSpec::Height { scale } => {
+            pattern::file::Reading::Heights(HeightReading { height_scale: scale, wrap })
+        }
+    }
+}
+
+fn shape(spec: ShapeSpec) -> Shape {
+    match spec {
+        ShapeSpec::Plane => Shape::Plane(Plane::new()),
+        ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
+    }
+}
+
+fn lit(spec: &LightSpec) -> Light {
+    match *spec {
+        LightSpec::Directional { elevation, azimuth, irradiance } => {
+            Light::Directional { direction: direction(elevation, azimuth), irradiance }
+        }
+        LightSpec::Point { position: [x, y, z], intensity } => {
+            Light::Point { position: crate::geometry::Vec3::new(x, y, z), intensity }
+        }
+    }
+}
+
+/// A scene's file-name-safe identifier: its texture, its lobe if there are several, its scale.
+fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> String {
+    let safe = |text: &str| -> String {
+        text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
+    };
+    let mut parts = vec![safe(&spec.sweep.textures[texture].name)];
+    // Names that differ only in what was replaced stay apart.
+    let same = |t: &TextureSpec| safe(&t.name) == parts[0];
+    if spec.sweep.textures.iter().filter(|t| same(t)).count() > 1 {
+        parts.push(texture.to_string());
+    }
+    if spec.sweep.lobes.len() > 1 {
+        parts.push(format!("{}-{}", base.name(), base.parameter()));
+    }
+    parts.push(match placement.tiling {
+        Tiling::TexelsPerPixel(texels) => format!("{texels}-texels"),
+        Tiling::Tiles(_) => format!("at-{}", placement.distance),
+    });
+    parts.join("-")
+}

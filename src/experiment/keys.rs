@@ -1,0 +1,68 @@
+//! Names of records, and what each depends on.
+//!
+//! A record is worth taking up only if nothing it depends on has changed. What that is, as text, goes
+//! into its digest (see [`super::store`]).
+
+use super::author::{PlannedScene, PlannedTrial};
+use super::spec::{Spec, TextureSource, TextureSpec};
+
+/// Name of a scene's reference among its records.
+pub(super) const REFERENCE: &str = "reference";
+/// Name of a scene's probes among its records.
+pub(super) const PROBES: &str = "probes";
+
+/// What is common to all scenes of an experiment.
+pub(super) fn common(spec: &Spec) -> String {
+    format!(
+        "{:?} {:?} {:?} {:?} {:?} {:?} {}",
+        spec.image,
+        spec.surface,
+        spec.camera,
+        spec.light,
+        spec.shading,
+        spec.reference,
+        spec.seed
+    )
+}
+
+/// A texture, with the bytes of its file. (Of a file that cannot be read nothing is said here; reading
+/// it as a texture tells why.)
+pub(super) fn texture(texture: &TextureSpec) -> String {
+    let bytes = match &texture.source {
+        TextureSource::File { path, .. } => std::fs::read(path).unwrap_or_default(),
+        TextureSource::Pattern { .. } => Vec::new(),
+    };
+    format!("{texture:?} {}", blake3::hash(&bytes).to_hex())
+}
+
+/// What a scene's reference depends on, beyond what is common.
+pub(super) fn scene(scene: &PlannedScene) -> String {
+    format!("{} {:?} {:?} {:?}", scene.texture_key, scene.base, scene.tiling, scene.distance)
+}
+
+/// What a trial depends on.
+pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> String {
+    format!("{} {:?} {}", scene(of), spec.sweep.methods[trial.method], trial.spp)
+}
+
+/// What a scene's probes depend on.
+pub(super) fn probes(spec: &Spec, of: &PlannedScene) -> String {
+    format!("{} {:?}", scene(of), spec.sweep.methods)
+}
+
+/// What a prefilter depends on.
+pub(super) fn prefilter(spec: &Spec, of: &PlannedScene, method: usize) -> String {
+    format!("{} {:?} {:?}", of.texture_key, of.base, spec.sweep.methods[method])
+}
+
+/// Name of a trial's record and image.
+pub(super) fn trial_name(spec: &Spec, trial: &PlannedTrial) -> String {
+    format!("{}-{}spp", spec.sweep.methods[trial.method].label, trial.spp)
+}
+
+/// Folder and name of a prefilter's record: one a texture, method and lobe.
+pub(super) fn prefilter_name(spec: &Spec, of: &PlannedScene, method: usize) -> (String, String) {
+    let label = &spec.sweep.methods[method].label;
+    let name = format!("{label}-{}-{}", of.base.name(), of.base.parameter());
+    (format!("prefilters-{}", of.texture), name)
+}

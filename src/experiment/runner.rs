@@ -1,0 +1,354 @@
+//! The runner: works through the scenes of an experiment, keeps what is done, and takes up what an
+//! earlier run kept.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use bevy_ecs::prelude::Entity;
+
+use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
+use super::collect::{collect, known_scores, named_scores, probe_records};
+use super::keys;
+use super::results::{Costs, Results};
+use super::spec::Spec;
+use super::store::{
+    PrefilterRecord, ProbeRecord, ReferenceRecord, Store, StoreError, TrialRecord,
+};
+use crate::render::Converged;
+use crate::scene::{
+    BuildCost, Current, Exposure, Failure, Halt, LoadError, Prefilter, Probes, Progress,
+    ReferenceImage, Scores, Stagehand,
+};
+
+/// What a run tells those who watch it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunEvent {
+    /// The run starts.
+    Started {
+        /// Units of work in all.
+        work: f64,
+        /// Scenes in all.
+        scenes: usize,
+        /// Trials in all.
+        trials: usize,
+    },
+    /// A scene's turn has come.
+    Scene {
+        /// Its slug.
+        slug: String,
+    },
+    /// Something is being worked at, in a few words.
+    Working {
+        /// What.
+        what: String,
+    },
+    /// A piece of work is done.
+    Advanced {
+        /// Its units of work.
+        work: f64,
+        /// Whether an earlier run had done it.
+        kept: bool,
+    },
+    /// A trial has its scores.
+    Scored {
+        /// The scene's slug.
+        scene: String,
+        /// The method's label.
+        method: String,
+        /// Samples a pixel.
+        spp: u32,
+        /// The root mean square error.
+        rmse: f64,
+    },
+}
+
+/// How a run ended, if not in an error.
+#[derive(Debug)]
+pub enum Outcome {
+    /// All of it is done.
+    Finished(Box<(Results, Costs)>),
+    /// It was halted; what was finished is kept.
+    Halted,
+}
+
+/// Why a run could not go on.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// A texture could not be loaded.
+    #[error("texture `{texture}`: {source}")]
+    Texture {
+        /// Its name.
+        texture: String,
+        /// Why.
+        source: LoadError,
+    },
+    /// Results could not be kept.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// Runs an experiment, with its results kept in `folder`, until it is done or `halt` is set.
+///
+/// # Errors
+/// If a texture cannot be loaded or results cannot be written. Textures that are files are read
+/// first, so that a bad one is told before any work is done.
+pub fn run(
+    spec: &Spec,
+    folder: &Path,
+    halt: &Halt,
+    watch: &mut dyn FnMut(RunEvent),
+) -> Result<Outcome, RunError> {
+    let start = Instant::now();
+    for texture in &spec.sweep.textures {
+        load(texture)
+            .map_err(|source| RunError::Texture { texture: texture.name.clone(), source })?;
+    }
+    let mut stage = Stagehand::new(spec.seed, halt.clone());
+    let plan = author(spec, &mut stage);
+    let store = Store::open(folder, &keys::common(spec))?;
+    let mut run = Run { spec, plan: &plan, store: &store, stage: &mut stage, watch };
+    run.announce();
+    for scene in &plan.scenes {
+        if !run.scene(scene)? {
+            return Ok(Outcome::Halted);
+        }
+    }
+    let costs = Costs {
+        total_secs: start.elapsed().as_secs_f64(),
+        threads: rayon::current_num_threads(),
+        ..Costs::default()
+    };
+    Ok(Outcome::Finished(Box::new(collect(spec, &plan, &store, &mut stage, costs))))
+}
+
+/// A run under way.
+struct Run<'a> {
+    spec: &'a Spec,
+    plan: &'a Plan,
+    store: &'a Store,
+    stage: &'a mut Stagehand,
+    watch: &'a mut dyn FnMut(RunEvent),
+}
+
+impl Run<'_> {
+    fn announce(&mut self) {
+        let scenes = &self.plan.scenes;
+        let work = scenes.iter().map(|scene| self.work_of_scene(scene)).sum();
+        let trials = scenes.iter().map(|scene| scene.trials.len()).sum();
+        (self.watch)(RunEvent::Started { work, scenes: scenes.len(), trials });
+    }
+
+    /// Works at one scene until it is done (true) or the run is halted (false).
+    fn scene(&mut self, scene: &PlannedScene) -> Result<bool, RunError> {
+        (self.watch)(RunEvent::Scene { slug: scene.slug.clone() });
+        self.take_up(scene);
+        self.stage.world.insert_resource(Current(scene.entity));
+        if self.complete(scene) {
+            self.let_go(scene);
+            return Ok(true);
+        }
+        loop {
+            let what = self.next_piece(scene);
+            (self.watch)(RunEvent::Working { what });
+            let done = self.stage.tick();
+            if let Some(source) = self.stage.world.resource_mut::<Failure>().0.take() {
+                let texture = self.spec.sweep.textures[scene.texture].name.clone();
+                return Err(RunError::Texture { texture, source });
+            }
+            if done.is_empty() {
+                break;
+            }
+            for piece in done {
+                self.keep(scene, &piece)?;
+            }
+        }
+        let halted = self.stage.world.resource::<Halt>().now();
+        if !halted {
+            self.let_go(scene);
+        }
+        Ok(!halted)
+    }
+
+    /// Puts into the world what an earlier run finished of this scene.
+    fn take_up(&mut self, scene: &PlannedScene) {
+        let (depends, slug) = (keys::scene(scene), scene.slug.as_str());
+        let world = &mut self.stage.world;
+        let found: Option<(ReferenceRecord, _)> =
+            self.store.find_with_film(slug, keys::REFERENCE, &depends);
+        if let Some((record, film)) = found {
+            let converged = Converged { film, spp: record.spp, rmse: record.rmse };
+            world.entity_mut(scene.entity).insert(ReferenceImage(Arc::new(converged)));
+            let work = self.reference_work();
+            (self.watch)(RunEvent::Advanced { work, kept: true });
+        }
+        for trial in &scene.trials {
+            let name = keys::trial_name(self.spec, trial);
+            let depends = keys::trial(self.spec, scene, trial);
+            let found: Option<(TrialRecord, _)> = self.store.find_with_film(slug, &name, &depends);
+            if let Some((record, film)) = found {
+                let exposure = Exposure { film: Arc::new(film), secs: record.secs };
+                let scores = known_scores(&record.scores);
+                let world = &mut self.stage.world;
+                world.entity_mut(trial.entity).insert((exposure, scores));
+                let work = self.trial_work(trial);
+                (self.watch)(RunEvent::Advanced { work, kept: true });
+            }
+        }
+    }
+
+    /// Whether nothing of this scene is pending (its probes and refusals included).
+    fn complete(&self, scene: &PlannedScene) -> bool {
+        let world = &self.stage.world;
+        let depends = keys::probes(self.spec, scene);
+        let refused = |trial: &PlannedTrial| {
+            let (folder, name) = keys::prefilter_name(self.spec, scene, trial.method);
+            let depends = keys::prefilter(self.spec, scene, trial.method);
+            let record: Option<PrefilterRecord> = self.store.find(&folder, &name, &depends);
+            record.is_some_and(|record| record.refusal.is_some())
+        };
+        let done = |trial: &PlannedTrial| {
+            world.get::<Scores>(trial.entity).is_some() || refused(trial)
+        };
+        world.get::<ReferenceImage>(scene.entity).is_some()
+            && scene.trials.iter().all(done)
+            && self.store.find::<Vec<ProbeRecord>>(&scene.slug, keys::PROBES, &depends).is_some()
+    }
+
+    /// Keeps a piece of work that a tick has done.
+    fn keep(&mut self, scene: &PlannedScene, piece: &Progress) -> Result<(), RunError> {
+        match *piece {
+            Progress::Loaded { .. } | Progress::Rendered { .. } => {}
+            Progress::Prefiltered { prefilter } => self.keep_prefilter(scene, prefilter)?,
+            Progress::Converged { .. } => self.keep_reference(scene)?,
+            Progress::Scored { trial } => self.keep_trial(scene, trial)?,
+            Progress::Probed { .. } => self.keep_probes(scene)?,
+        }
+        Ok(())
+    }
+
+    fn keep_prefilter(&mut self, scene: &PlannedScene, entity: Entity) -> Result<(), RunError> {
+        let world = &self.stage.world;
+        let (Some(built), Some(cost)) =
+            (world.get::<Prefilter>(entity), world.get::<BuildCost>(entity))
+        else {
+            return Ok(());
+        };
+        let record = match &built.0 {
+            Ok(_) => PrefilterRecord { cost: Some((cost.secs, cost.bytes)), refusal: None },
+            Err(refusal) => PrefilterRecord { cost: None, refusal: Some(refusal.0.clone()) },
+        };
+        let refused = record.refusal.is_some();
+        let method = scene.prefilters.iter().position(|&p| p == entity).unwrap_or_default();
+        let (folder, name) = keys::prefilter_name(self.spec, scene, method);
+        let depends = keys::prefilter(self.spec, scene, method);
+        self.store.keep(&folder, &name, &depends, &record)?;
+        if refused {
+            let of_method = scene.trials.iter().filter(|trial| trial.method == method);
+            let work = of_method.map(|trial| self.trial_work(trial)).sum();
+            (self.watch)(RunEvent::Advanced { work, kept: false });
+        }
+        Ok(())
+    }
+
+    fn keep_reference(&mut self, scene: &PlannedScene) -> Result<(), RunError> {
+        let work = self.reference_work() / f64::from(self.spec.reference.replicates);
+        (self.watch)(RunEvent::Advanced { work, kept: false });
+        let Some(image) = self.stage.world.get::<ReferenceImage>(scene.entity) else {
+            return Ok(());
+        };
+        let record = ReferenceRecord { spp: image.0.spp, rmse: image.0.rmse };
+        let depends = keys::scene(scene);
+        self.store.keep_with_film(&scene.slug, keys::REFERENCE, &depends, &record, &image.0.film)?;
+        Ok(())
+    }
+
+    fn keep_trial(&mut self, scene: &PlannedScene, entity: Entity) -> Result<(), RunError> {
+        let Some(trial) = scene.trials.iter().find(|trial| trial.entity == entity) else {
+            return Ok(());
+        };
+        let world = &self.stage.world;
+        let (Some(exposure), Some(scores)) =
+            (world.get::<Exposure>(entity), world.get::<Scores>(entity))
+        else {
+            return Ok(());
+        };
+        let record = TrialRecord {
+            scores: named_scores(scores),
+            secs: exposure.secs,
+        };
+        let rmse = scores.0.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |s| s.1);
+        let name = keys::trial_name(self.spec, trial);
+            let depends = keys::trial(self.spec, scene, trial);
+        self.store.keep_with_film(&scene.slug, &name, &depends, &record, &exposure.film)?;
+        let work = self.trial_work(trial);
+        (self.watch)(RunEvent::Advanced { work, kept: false });
+        let method = self.spec.sweep.methods[trial.method].label.clone();
+        let (scene, spp) = (scene.slug.clone(), trial.spp);
+        (self.watch)(RunEvent::Scored { scene, method, spp, rmse });
+        Ok(())
+    }
+
+    fn keep_probes(&mut self, scene: &PlannedScene) -> Result<(), RunError> {
+        let Some(probes) = self.stage.world.get::<Probes>(scene.entity) else { return Ok(()) };
+        let records = probe_records(self.spec, scene, probes);
+        self.store.keep(&scene.slug, keys::PROBES, &keys::probes(self.spec, scene), &records)?;
+        Ok(())
+    }
+
+    /// Lets go of what no later scene needs: the maps of the texture after its last scene.
+    fn let_go(&mut self, scene: &PlannedScene) {
+        let is_last = self
+            .plan
+            .scenes
+            .iter()
+            .rfind(|other| other.prefilters == scene.prefilters)
+            .is_some_and(|other| other.entity == scene.entity);
+        if is_last {
+            for &prefilter in &scene.prefilters {
+                // A refusal is small and is reported; a map is neither.
+                let world = &mut self.stage.world;
+                let built = world.get::<Prefilter>(prefilter).is_some_and(|p| p.0.is_ok());
+                if built {
+                    world.entity_mut(prefilter).remove::<Prefilter>();
+                }
+            }
+        }
+    }
+
+    /// What the next tick will begin with, in a few words.
+    fn next_piece(&self, scene: &PlannedScene) -> String {
+        let world = &self.stage.world;
+        let missing = |&&p: &&Entity| world.get::<Prefilter>(p).is_none();
+        if let Some(method) = scene.prefilters.iter().position(|p| missing(&p)) {
+            return format!("prefiltering for {}", self.spec.sweep.methods[method].label);
+        }
+        if world.get::<ReferenceImage>(scene.entity).is_none() {
+            return "converging the reference".to_owned();
+        }
+        let pending = |trial: &&PlannedTrial| world.get::<Exposure>(trial.entity).is_none();
+        match scene.trials.iter().find(pending) {
+            Some(trial) => {
+                let label = &self.spec.sweep.methods[trial.method].label;
+                format!("rendering {label} at {} spp", trial.spp)
+            }
+            None => "measuring".to_owned(),
+        }
+    }
+
+    /// Work is counted in samples.
+    fn trial_work(&self, trial: &PlannedTrial) -> f64 {
+        // A filtered sample costs several bare ones, and an image has some cost of its own.
+        let image = &self.spec.image;
+        (image.width * image.height) as f64 * (4.0 + f64::from(trial.spp))
+    }
+
+    fn reference_work(&self) -> f64 {
+        let image = &self.spec.image;
+        (image.width * image.height) as f64 * f64::from(self.spec.reference.spp)
+    }
+
+    fn work_of_scene(&self, scene: &PlannedScene) -> f64 {
+        scene.trials.iter().map(|t| self.trial_work(t)).sum::<f64>() + self.reference_work()
+    }
+}

@@ -1,0 +1,153 @@
+//! The spec of an experiment: a TOML file that says what to render and compare.
+//!
+//! [`Spec::load`] reads and checks all of it before anything is built. It collects everything that is
+//! wrong, each with its place in the file, what would be right, and the nearest name to a misspelt
+//! one. `docs/experiments.md` is the manual of the format.
+
+mod catalogue;
+mod error;
+mod item;
+mod limits;
+mod log;
+mod material;
+mod method;
+mod reader;
+mod reference;
+mod scene;
+mod suggest;
+mod sweep;
+mod texture;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use toml::de::DeTable;
+
+pub use error::{SpecError, SpecErrors};
+pub use method::MethodSpec;
+pub use reference::ReferenceSpec;
+pub use scene::{CameraSpec, ImageSpec, LightSpec, Shape};
+pub use sweep::{Scale, SweepSpec};
+pub use texture::{Reading, TextureSource, TextureSpec};
+
+use crate::lobe::Shading;
+use catalogue::Catalogue;
+use limits::Limits;
+use log::Log;
+use material::Material;
+use reader::Reader;
+use sweep::Context;
+
+/// An experiment: what to render, and what to hold it to. Every value is checked and every default
+/// filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spec {
+    /// Its name: the file's stem.
+    pub name: String,
+    /// Its title, a line; the name if the file has none.
+    pub title: String,
+    /// The question it answers; may be empty.
+    pub question: String,
+    /// The seed of every random choice.
+    pub seed: u64,
+    /// The size of every image.
+    pub image: ImageSpec,
+    /// The surface.
+    pub surface: Shape,
+    /// The camera.
+    pub camera: CameraSpec,
+    /// The light.
+    pub light: LightSpec,
+    /// What a lobe's density means for the light that leaves the surface.
+    pub shading: Shading,
+    /// The reference.
+    pub reference: ReferenceSpec,
+    /// What is combined with what.
+    pub sweep: SweepSpec,
+    /// The file as written.
+    pub text: String,
+}
+
+impl Spec {
+    /// Reads the experiment in a file.
+    ///
+    /// # Errors
+    /// [`SpecErrors::Unreadable`], or all that is wrong with it.
+    pub fn load(path: &Path) -> Result<Self, SpecErrors> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| SpecErrors::Unreadable { path: path.to_owned(), source })?;
+        Self::parse(&text, path)
+    }
+
+    /// Reads an experiment from `text`, which came from the file `path`. Image files it names are
+    /// looked for, from the path's folder, but not opened.
+    ///
+    /// # Errors
+    /// All that is wrong with it.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, SpecErrors> {
+        Self::parse_with(&Catalogue::all(), &Log::new(path, text), text)
+    }
+
+    /// Reads an experiment that may name what the catalogue holds.
+    fn parse_with(catalogue: &Catalogue, log: &Log, text: &str) -> Result<Self, SpecErrors> {
+        let (document, syntax_errors) = DeTable::parse_recoverable(text);
+        for error in &syntax_errors {
+            let span = error.span().unwrap_or_else(|| log.end());
+            log.error(span, format!("not TOML: {}", error.message()), None);
+        }
+        // What could not be parsed would seem to be missing, so no more is said of such a file.
+        log.check()?;
+        let title = ("the experiment".to_owned(), "The experiment");
+        let spec = Reader::read(log, title, log.end(), Some(document.get_ref()), |root| {
+            read_spec(root, catalogue, text)
+        });
+        log.check()?;
+        Ok(spec)
+    }
+}
+
+/// Reads everything; the spec means something only if nothing was logged.
+fn read_spec(root: &Reader, catalogue: &Catalogue, text: &str) -> Spec {
+    let name = root.log().path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let text_at = |key| root.item(key).and_then(|item| item.text()).map(str::to_owned);
+    let title = text_at("title").unwrap_or_else(|| name.clone());
+    let question = text_at("question").unwrap_or_default();
+    let seed = root.whole("seed", 1, 0, i64::MAX as u64);
+    let image = root.section("image", "[image]", ImageSpec::read);
+    let (surface, tiles) = root.section("surface", "[surface]", |reader| {
+        let shapes = [("plane", Shape::Plane), ("sphere", Shape::Sphere)];
+        let tiles = reader.item("tiles");
+        let limits = Limits::above(0.0, 1e6);
+        (reader.choice("shape", &shapes), tiles.and_then(|t| Some((t.clone(), t.real(limits)?))))
+    });
+    let camera = root.section("camera", "[camera]", |r| CameraSpec::read(r, surface));
+    let light = root.section("light", "[light]", |r| LightSpec::read(r, surface));
+    let material = root.section("material", "[material]", Material::read);
+    let reference = root.section("reference", "[reference]", ReferenceSpec::read);
+    let textures = root.each_table("texture", "[texture.NAME]", |name, reader| {
+        (name, TextureSpec::read(name, reader, catalogue, seed))
+    });
+    let methods = root.each_table("method", "[method.LABEL]", |label, reader| {
+        (label, MethodSpec::read(label, reader, catalogue))
+    });
+    let context =
+        Context { catalogue, textures, methods, shape: surface, tiles, material, reference, seed };
+    let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));
+    Spec {
+        name,
+        title,
+        question,
+        seed,
+        image,
+        surface,
+        camera,
+        light,
+        shading: material.shading,
+        reference,
+        sweep,
+        text: text.to_owned(),
+    }
+}

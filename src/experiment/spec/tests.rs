@@ -1,0 +1,235 @@
+//! Specs that are right, and the manual. `tests/spec_errors.rs` has those that are wrong.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::lobe::BaseLobe;
+use crate::parameter::{Domain, Parameter, Values};
+use crate::pattern::{self, Bumps};
+use crate::texture::{Interpolation, NormalMap, Wrap};
+
+/// A pattern `ribs` with one option of each kind, and the program's methods.
+fn catalogue() -> Catalogue {
+    const PARAMETERS: &[Parameter] = &[
+        Parameter {
+            name: "depth",
+            meaning: "",
+            domain: Domain::Real { default: 0.5, min: 0.0, max: 2.0 },
+        },
+        Parameter {
+            name: "count",
+            meaning: "",
+            domain: Domain::Whole { default: 4, min: 1, max: 9 },
+        },
+        Parameter {
+            name: "profile",
+            meaning: "",
+            domain: Domain::Choice { words: &["round", "square"] },
+        },
+    ];
+    let card = pattern::Card { name: "ribs", source: "", summary: "" };
+    let build = |width, height, _: &Values, _| Bumps {
+        normals: NormalMap::from_fn(width, height, Wrap::Repeat, |_, _| [0.0, 0.0, 1.0, 1.0]),
+        heights: None,
+        notes: Vec::new(),
+    };
+    let patterns = vec![pattern::Entry { card, parameters: PARAMETERS, build }];
+    Catalogue { patterns, ..Catalogue::all() }
+}
+
+fn parse(text: &str) -> Result<Spec, SpecErrors> {
+    let path = Path::new("experiments/ribbed.toml");
+    Spec::parse_with(&catalogue(), &Log::new(path, text), text)
+}
+
+const SMALLEST: &str = "[sweep]\ntexture = [\"ribs\"]\nmethod = [\"averaged\"]\n";
+
+#[test]
+fn everything_but_textures_and_methods_has_a_default() {
+    let spec = parse(SMALLEST).unwrap();
+    assert_eq!((spec.name.as_str(), spec.title.as_str(), spec.seed), ("ribbed", "ribbed", 1));
+    assert_eq!(spec.image, ImageSpec { width: 160, height: 120 });
+    assert_eq!(spec.surface, Shape::Plane);
+    let camera = CameraSpec { elevation: 40.0, azimuth: -90.0, fov: 25.0, distance: 4.0 };
+    assert_eq!(spec.camera, camera);
+    let light = LightSpec::Directional { elevation: 40.0, azimuth: 90.0, irradiance: 1.0 };
+    assert_eq!(spec.light, light);
+    assert_eq!(spec.shading, Shading::Ndf);
+    assert_eq!(spec.reference, ReferenceSpec { spp: 4096, replicates: 4 });
+    assert_eq!(spec.sweep.spp, [1, 4, 16, 64]);
+    assert_eq!(spec.sweep.unfiltered_spp, [1, 4, 16, 64, 256]);
+    assert_eq!(spec.sweep.scale, Scale::TexelsPerPixel(vec![1.0, 4.0, 16.0, 64.0]));
+    assert_eq!(spec.sweep.lobes, [BaseLobe::BlinnPhong { exponent: 60.0 }]);
+    assert_eq!(spec.text, SMALLEST);
+    let TextureSource::Pattern { name, width, height, values, seed } =
+        &spec.sweep.textures[0].source
+    else {
+        panic!("a pattern")
+    };
+    assert_eq!((*name, *width, *height, *seed, values.whole("count")), ("ribs", 128, 128, 1, 4));
+}
+
+const RICH: &str = r#"
+seed = 7
+[surface]
+shape = "sphere"
+tiles = 4
+[light]
+kind = "point"
+position = [0, 3.5, 1]
+[material]
+lobe = "ggx"
+shading = "microfacet"
+[sweep]
+texture = ["ribs", "fine", "cast"]
+method = ["unfiltered", "smooth"]
+spp = [16, 1]
+unfiltered_spp = [1, 64]
+distance = [2, 4.5]
+alpha = [0.1, 0.3]
+[texture.fine]
+pattern = "ribs"
+width = 64
+depth = 1
+profile = "square"
+[texture.cast]
+file = "../Cargo.toml"
+kind = "height"
+height_scale = -2
+wrap = "clamp"
+interpolation = "nearest"
+[method.smooth]
+use = "averaged"
+"#;
+
+#[test]
+fn a_rich_spec_is_read_as_written() {
+    let spec = parse(RICH).unwrap();
+    assert_eq!(spec.light, LightSpec::Point { position: [0.0, 3.5, 1.0], intensity: 1.0 });
+    let SweepSpec { textures, methods, spp, unfiltered_spp, scale, lobes } = &spec.sweep;
+    assert_eq!(
+        (spp.as_slice(), unfiltered_spp.as_slice()),
+        ([1, 16].as_slice(), [1, 64].as_slice())
+    );
+    assert_eq!(*scale, Scale::Distance { distances: vec![2.0, 4.5], tiles: 4.0 });
+    assert_eq!(*lobes, [0.1, 0.3].map(|alpha| BaseLobe::Ggx { alpha }));
+    let TextureSource::Pattern { width, height, values, seed, .. } = &textures[1].source else {
+        panic!("a pattern")
+    };
+    assert_eq!((*width, *height, *seed), (64, 128, 7));
+    assert_eq!((values.number("depth"), values.word("profile")), (1.0, "square"));
+    let TextureSource::File { path, written, reading } = &textures[2].source else {
+        panic!("a file")
+    };
+    assert_eq!(
+        (path.as_path(), written.as_str()),
+        (Path::new("experiments/../Cargo.toml"), "../Cargo.toml")
+    );
+    assert_eq!(*reading, Reading::Height { scale: -2.0 });
+    assert_eq!(textures[2].wrap, Wrap::Clamp);
+    assert_eq!(textures[2].interpolation, Interpolation::Nearest);
+    assert_eq!((methods[1].label.as_str(), methods[1].name), ("smooth", "averaged"));
+    assert_eq!(spec.sweep.spp_of(&methods[0]), [1, 64]);
+    assert_eq!(spec.sweep.spp_of(&methods[1]), [1, 16]);
+}
+
+#[test]
+fn lobes_of_several_families_can_be_swept() {
+    let text =
+        format!("{SMALLEST}lobe = [{{ alpha = 0.3, lobe = \"ggx\" }}, {{ exponent = 9 }}]\n");
+    let lobes = [BaseLobe::Ggx { alpha: 0.3 }, BaseLobe::BlinnPhong { exponent: 9.0 }];
+    assert_eq!(parse(&text).unwrap().sweep.lobes, lobes);
+}
+
+#[test]
+fn what_contradicts_itself_is_an_error() {
+    for (more, message) in [
+        ("distance = [1]\n", "a sweep over `distance` needs the key `tiles` in [surface]"),
+        ("[surface]\ntiles = 3\n", "`tiles` has no effect: the sweep chooses the tiling"),
+        ("exponent = [3]\nlobe = [{}]\n", "[sweep] has both `exponent` and `lobe`"),
+        ("alpha = [0.2]\n", "unknown key `alpha` in [sweep]"),
+        (
+            "unfiltered_spp = [1]\n",
+            "`unfiltered_spp` has no effect: no method of the sweep is `unfiltered`",
+        ),
+        ("spp = [8192]\n", "8192 samples a pixel are more than the reference's 4096"),
+        (
+            "[surface]\nshape = \"sphere\"\n[light]\nkind = \"point\"\nposition = [0, 0, 1]\n",
+            "`position` is inside the sphere of radius 1",
+        ),
+        (
+            "[light]\nkind = \"point\"\nposition = [0, 0, -1]\n",
+            "`position` is not above the plane: z is -1",
+        ),
+        (
+            "[light]\nkind = \"point\"\nposition = [0, 0]\n",
+            "`position` must be three numbers, [x, y, z], not a list",
+        ),
+        (
+            "[texture.x]\npattern = \"ribs\"\ncount = 10\n",
+            "`count` must be a whole number from 1 to 9, not 10",
+        ),
+        (
+            "[texture.x]\npattern = \"ribs\"\nprofile = \"flat\"\n",
+            "`profile` must be \"round\" or \"square\", not \"flat\"",
+        ),
+        ("[texture.x]\npattern = \"ribs\"\ngreen = \"up\"\n", "unknown key `green` in [texture.x]"),
+        ("[texture.x]\npattern = \"rib\"\ncount = 3\n", "unknown pattern \"rib\""),
+    ] {
+        let error = parse(&format!("{SMALLEST}{more}")).expect_err(message);
+        let messages: Vec<&str> = error.errors().iter().map(|e| e.message.as_str()).collect();
+        assert_eq!(messages, [message], "{more}");
+    }
+}
+
+#[test]
+fn the_manual_names_every_key_under_its_heading() {
+    let mut keys = BTreeSet::new();
+    let normal_file = "[texture.x]\nfile = \"../Cargo.toml\"\nkind = \"normal\"\n";
+    for text in [SMALLEST.to_owned(), RICH.to_owned(), format!("{SMALLEST}{normal_file}")] {
+        let log = Log::new(Path::new("experiments/ribbed.toml"), &text);
+        Spec::parse_with(&catalogue(), &log, &text).unwrap();
+        keys.extend(log.keys());
+    }
+    assert!(keys.len() > 40, "the readers were asked: {keys:?}");
+    let manual = include_str!("../../../docs/experiments.md");
+    for (heading, key) in keys {
+        let section = manual.split("\n## ").find(|section| section.starts_with(heading));
+        let section = section.unwrap_or_else(|| panic!("the manual has no section {heading}"));
+        let rows = section.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next());
+        let found = rows.into_iter().any(|keys| keys.contains(&format!("`{key}`")));
+        assert!(found, "the manual has no row for `{key}` under {heading}");
+    }
+}
+
+#[test]
+fn no_option_hides_behind_a_key_of_its_table() {
+    let known = Catalogue::all();
+    for parameter in known.patterns.iter().flat_map(|entry| entry.parameters) {
+        let taken = ["pattern", "file", "width", "height", "seed", "wrap", "interpolation"];
+        assert!(!taken.contains(&parameter.name), "{}", parameter.name);
+    }
+    for parameter in known.methods.iter().flat_map(|entry| entry.parameters) {
+        assert_ne!(parameter.name, "use");
+    }
+}
+
+proptest! {
+    #[test]
+    fn nothing_panics(text in "(\\[(sweep|image|light|texture\\.a|method\\.b)\\]\n|[a-z_]{1,9}|=|\\[|\\]|,| |\n|\"|3|1e9|-1|\\{|\\}|spp|distance|lobe|position){0,60}") {
+        let _ = parse(&text);
+    }
+
+    #[test]
+    fn any_value_under_any_key_is_read_or_refused(
+        key in "(title|seed|image|sweep|light|method|texture|texture\\.a|sweep\\.spp|sweep\\.lobe|sweep\\.texture|light\\.position|light\\.kind|image\\.width|material\\.lobe|texture\\.a\\.file|method\\.a\\.use)",
+        value in "(3|-3|0x10|9999999999|1.5|inf|nan|true|\"\"|\"x\"|\"ribs\"|\\[\\]|\\[1, 1\\]|\\[\"ribs\"\\]|\\[\\[1\\]\\]|\\{\\}|\\{ a = 1 \\}|\\[\\{\\}, \\{\\}\\]|2020-01-01)",
+    ) {
+        if let Err(error) = parse(&format!("{key} = {value}\n")) {
+            prop_assert!(!error.errors().is_empty());
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Textures: a pattern of the program's, or an image file.
+
+use std::path::PathBuf;
+
+use super::catalogue::Catalogue;
+use super::limits::Limits;
+use super::reader::Reader;
+use super::values::read_values;
+use crate::parameter::Values;
+use crate::texture::image_file::{Green, Zero};
+use crate::texture::{Interpolation, Wrap};
+
+/// A texture of the sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureSpec {
+    /// Its name in this experiment: letters, digits, `-` and `_`.
+    pub name: String,
+    /// Where its bumps come from.
+    pub source: TextureSource,
+    /// What lies beyond its edge.
+    pub wrap: Wrap,
+    /// How normals between texel centres are found.
+    pub interpolation: Interpolation,
+}
+
+/// Where bumps come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TextureSource {
+    /// A pattern the program computes.
+    Pattern {
+        /// The pattern's name in [`crate::pattern::entries`].
+        name: &'static str,
+        /// Texels along u.
+        width: usize,
+        /// Texels along v.
+        height: usize,
+        /// Its options.
+        values: Values,
+        /// Seed of its random choices, if it makes any.
+        seed: u64,
+    },
+    /// An image file.
+    File {
+        /// Where it is: the spec's folder joined with `written`.
+        path: PathBuf,
+        /// Its path as the spec has it.
+        written: String,
+        /// What its pixels mean.
+        reading: Reading,
+    },
+}
+
+/// What an image file's pixels mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// Normals: red is x, green is y, blue is z.
+    Normal {
+        /// Which way green is positive.
+        green: Green,
+        /// The code of a zero coordinate.
+        zero: Zero,
+    },
+    /// Heights: black is 0, white is `scale`.
+    Height {
+        /// Height of white, in sides of a texel; negative turns bumps into dents.
+        scale: f64,
+    },
+}
+
+/// Texels along a side of a pattern.
+const MAX_SIDE: u64 = 4096;
+const DEFAULT_SIDE: usize = 128;
+
+impl TextureSpec {
+    /// A pattern with its defaults, named after it.
+    pub(super) fn plain(catalogue: &Catalogue, pattern: &str, seed: u64) -> Option<Self> {
+        let entry = catalogue.pattern(pattern)?;
+        let source = TextureSource::Pattern {
+            name: entry.card.name,
+            width: DEFAULT_SIDE,
+            height: DEFAULT_SIDE,
+            values: Values::defaults(entry.parameters),
+            seed,
+        };
+        let (wrap, interpolation) = (Wrap::default(), Interpolation::default());
+        Some(Self { name: pattern.to_owned(), source, wrap, interpolation })
+    }
+
+    /// Reads a `[texture.NAME]` table. `None` if it does not say what it is; that is logged.
+    pub(super) fn read(
+        name: &str,
+        reader: &Reader,
+        catalogue: &Catalogue,
+        seed: u64,
+    ) -> Option<Self> {
+        let source = read_source(reader, catalogue, seed);
+        let wraps = [("repeat", Wrap::Repeat), ("clamp", Wrap::Clamp)];
+        let interpolations =
+            [("bilinear", Interpolation::Bilinear), ("nearest", Interpolation::Nearest)];
+        let wrap = reader.choice("wrap", &wraps);
+        let interpolation = reader.choice("interpolation", &interpolations);
+        Some(Self { name: name.to_owned(), source: source?, wrap, interpolation })
+    }
+}
+
+fn read_source(reader: &Reader, catalogue: &Catalogue, seed: u64) -> Option<TextureSource> {
+    match (reader.item("pattern"), reader.item("file")) {
+        (Some(pattern), None) => {
+            let entry = pattern.text().and_then(|name| catalogue.need_pattern(name, &pattern));
+            if entry.is_none() {
+                reader.forgive();
+            }
+            let entry = entry?;
+            let side = |key| reader.whole(key, DEFAULT_SIDE as u64, 1, MAX_SIDE) as usize;
+            Some(TextureSource::Pattern {
+                name: entry.card.name,
+                width: side("width"),
+                height: side("height"),
+                seed: reader.whole("seed", seed, 0, i64::MAX as u64),
+                values: read_values(reader, entry.parameters),
+            })
+        }
+        (None, Some(file)) => {
+            let written = file.text();
+            let path = written.map(|written| folder(reader).join(written));
+            if let Some(path) = path.as_ref().filter(|path| !path.is_file()) {
+                let help = "paths are relative to the folder of this file".to_owned();
+                file.error(format!("there is no file {}", path.display()), Some(help));
+            }
+            let reading = read_reading(reader);
+            Some(TextureSource::File { path: path?, written: written?.to_owned(), reading })
+        }
+        (Some(_), Some(file)) => {
+            let message = format!("{} has both `pattern` and `file`", reader.name());
+            file.error(message, Some("keep one of them".to_owned()));
+            reader.forgive();
+            None
+        }
+        (None, None) => {
+            let message = format!("{} needs the key `pattern` or `file`", reader.name());
+            reader.error(message, None);
+            reader.forgive();
+            None
+        }
+    }
+}
+
+/// The folder that paths in the spec start from.
+fn folder(reader: &Reader) -> PathBuf {
+    reader.log().path().parent().map(PathBuf::from).unwrap_or_default()
+}
+
+fn read_reading(reader: &Reader) -> Reading {
+    if reader.choice("kind", &[("normal", false), ("height", true)]) {
+        let scale = reader.real("height_scale", 1.0, Limits::from_to(-1e4, 1e4));
+        Reading::Height { scale }
+    } else {
+        let green = reader.choice("green", &[("up", Green::Up), ("down", Green::Down)]);
+        let zero = reader.choice("zero", &[("half", Zero::Middle), ("128", Zero::Above)]);
+        Reading::Normal { green, zero }
+    }
+}

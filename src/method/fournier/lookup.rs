@@ -1,0 +1,215 @@
+//! Looking up and shading a pyramid of peaks.
+
+use std::sync::Arc;
+
+use super::MOST_PEAKS;
+use super::pyramid::Level;
+use crate::lobe::BaseLobe;
+use crate::lobe::{MultipleSurface, PhongPeak, Shading, Spread};
+use crate::method::one_lobe::{filtered_share, unfiltered_lobe};
+use crate::method::{Batch, Lane, Prefiltered};
+use crate::texture::{Footprint, NormalMap, Taps};
+
+/// A level as it is looked up: the peaks of all cells in one list.
+pub(super) struct StoredLevel {
+    width: usize,
+    height: usize,
+    /// Where each cell's peaks begin, and the end.
+    starts: Vec<u32>,
+    peaks: Vec<PhongPeak>,
+}
+
+impl StoredLevel {
+    pub(super) fn new(level: &Level) -> Self {
+        let mut starts = vec![0];
+        let mut peaks = Vec::new();
+        for fit in &level.cells {
+            peaks.extend(fit.peaks.iter().map(|p| PhongPeak {
+                amplitude: p.amplitude as f32,
+                direction: [p.direction.x, p.direction.y, p.direction.z].map(|c| c as f32),
+                exponent: p.exponent as f32,
+            }));
+            starts.push(peaks.len() as u32);
+        }
+        peaks.shrink_to_fit();
+        Self { width: level.width, height: level.height, starts, peaks }
+    }
+
+    #[inline(always)]
+    fn cell(&self, i: usize, j: usize) -> &[PhongPeak] {
+        let k = j * self.width + i;
+        &self.peaks[self.starts[k] as usize..self.starts[k + 1] as usize]
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.starts.as_slice()) + size_of_val(self.peaks.as_slice())
+    }
+}
+
+/// A normal map with a pyramid of peaks above it. Level 0 is the map: each texel is one peak.
+pub(super) struct PeakMap {
+    map: Arc<NormalMap>,
+    exponent: f32,
+    /// Amplitude of the base lobe: (s+2)/2π.
+    unit: f32,
+    base: BaseLobe,
+    /// Levels 1 and up.
+    levels: Vec<StoredLevel>,
+}
+
+impl PeakMap {
+    pub(super) fn new(map: Arc<NormalMap>, exponent: f64, levels: Vec<StoredLevel>) -> Self {
+        let unit = ((exponent + 2.0) / std::f64::consts::TAU) as f32;
+        let base = BaseLobe::BlinnPhong { exponent };
+        Self { map, exponent: exponent as f32, unit, base, levels }
+    }
+
+    /// Calls `take` with every peak at (u, v) and its interpolation weight: bilinear within the two
+    /// levels around `level`, linear between them. Peaks are never averaged (§2.4).
+    #[inline(always)]
+    fn each_peak(
+        &self,
+        at: &Footprint,
+        level: f32,
+        share: f32,
+        mut take: impl FnMut(PhongPeak, f32),
+    ) {
+        let held = level.clamp(0.0, self.levels.len() as f32);
+        let below = held as usize;
+        let blend = held - below as f32;
+        self.each_of_level(at, below, share * (1.0 - blend), &mut take);
+        if blend > 0.0 {
+            self.each_of_level(at, below + 1, share * blend, &mut take);
+        }
+    }
+
+    #[inline(always)]
+    fn each_of_level(
+        &self,
+        at: &Footprint,
+        level: usize,
+        share: f32,
+        take: &mut impl FnMut(PhongPeak, f32),
+    ) {
+        let stored = level.checked_sub(1).map(|above| &self.levels[above]);
+        let (width, height) =
+            stored.map_or((self.map.width(), self.map.height()), |l| (l.width, l.height));
+        let wrap = self.map.wrap();
+        for (j, weight_v) in ends(wrap.taps(at.v, height)) {
+            for (i, weight_u) in ends(wrap.taps(at.u, width)) {
+                let weight = share * weight_u * weight_v;
+                match stored {
+                    Some(level) => level.cell(i, j).iter().for_each(|&peak| take(peak, weight)),
+                    None => take(self.texel(i, j), weight),
+                }
+            }
+        }
+    }
+
+    /// A texel of the map as a peak.
+    #[inline(always)]
+    fn texel(&self, i: usize, j: usize) -> PhongPeak {
+        let [x, y, z, weight] = self.map.texel(i, j);
+        PhongPeak { amplitude: weight * self.unit, direction: [x, y, z], exponent: self.exponent }
+    }
+}
+
+/// The two cells of a lookup along an axis with their weights; one with all of it where they are the
+/// same.
+#[inline(always)]
+fn ends(taps: Taps) -> [(usize, f32); 2] {
+    let both = if taps.first == taps.second { 0.0 } else { taps.blend };
+    [(taps.first, 1.0 - both), (taps.second, both)]
+}
+
+impl Prefiltered for PeakMap {
+    fn bytes(&self) -> usize {
+        self.levels.iter().map(StoredLevel::bytes).sum()
+    }
+
+    fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
+        let level = at.level(self.map.width(), self.map.height());
+        let share = filtered_share(level);
+        let mut surface = MultipleSurface::new();
+        self.each_peak(at, level, share, |peak, weight| surface.add(peak, weight));
+        surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0 - share);
+        surface
+    }
+
+    fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        let mut slots = Slots::default();
+        for (lane, out) in radiance.iter_mut().enumerate().take(batch.len) {
+            *out = 0.0;
+            if batch.irradiance[lane] <= 0.0 {
+                continue;
+            }
+            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
+                .map(|axis| [axis[0][lane], axis[1][lane], axis[2][lane]]);
+            let at = batch.footprint(lane);
+            let level = at.level(self.map.width(), self.map.height());
+            let share = filtered_share(level);
+            slots.count = 0;
+            self.each_peak(&at, level, share, |peak, weight| slots.push(peak, weight));
+            // Each arm is a loop of its own, without branches inside.
+            let mut sum = match shading {
+                Shading::Ndf => slots.sum(|peak| peak.density(half)),
+                Shading::Microfacet => {
+                    slots.sum(|peak| peak.radiance(Shading::Microfacet, half, light, view))
+                }
+            };
+            if share < 1.0 {
+                let lobe = unfiltered_lobe(&self.map, &self.base, at.u, at.v).faded(1.0 - share);
+                sum += lobe.radiance(shading, half, light, view);
+            }
+            *out = batch.irradiance[lane] * sum;
+        }
+    }
+}
+
+/// Peaks of four cells of two levels.
+const SLOTS: usize = MOST_PEAKS * 4 * 2;
+/// Slots are worked through in groups of this many, the last filled up with what is there.
+const GROUP: usize = 8;
+
+/// The peaks at a shading point, axis by axis.
+struct Slots {
+    count: usize,
+    direction: [[f32; SLOTS]; 3],
+    amplitude: [f32; SLOTS],
+    exponent: [f32; SLOTS],
+}
+
+impl Default for Slots {
+    fn default() -> Self {
+        let (zero, one) = ([0.0; SLOTS], [1.0; SLOTS]);
+        Self { count: 0, direction: [zero, zero, one], amplitude: zero, exponent: one }
+    }
+}
+
+impl Slots {
+    #[inline(always)]
+    fn push(&mut self, peak: PhongPeak, weight: f32) {
+        if weight > 0.0 && self.count < SLOTS {
+            for (axis, value) in self.direction.iter_mut().zip(peak.direction) {
+                axis[self.count] = value;
+            }
+            self.amplitude[self.count] = peak.amplitude * weight;
+            self.exponent[self.count] = peak.exponent;
+            self.count += 1;
+        }
+    }
+
+    /// Σ f(peak), in the order they came.
+    #[inline(always)]
+    fn sum(&self, f: impl Fn(PhongPeak) -> f32) -> f32 {
+        let mut values = [0.0; SLOTS];
+        for start in (0..self.count).step_by(GROUP) {
+            for k in start..start + GROUP {
+                let direction = [self.direction[0][k], self.direction[1][k], self.direction[2][k]];
+                let (amplitude, exponent) = (self.amplitude[k], self.exponent[k]);
+                values[k] = f(PhongPeak { amplitude, direction, exponent });
+            }
+        }
+        values[..self.count].iter().sum()
+    }
+}

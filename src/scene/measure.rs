@@ -1,0 +1,125 @@
+//! Measures: trials against the reference, and the distributions under chosen footprints.
+
+use bevy_ecs::prelude::*;
+
+use super::trial::{SceneView, StagedScene};
+use super::{
+    Current, Exposure, Prefilter, PrefilterOf, ProbePlan, Progress, ReferenceImage, Stage, TrialOf,
+};
+use crate::geometry::HemisphereGrid;
+use crate::lobe::{MultipleSurface, Spread};
+use crate::metric;
+use crate::render::true_distribution;
+
+/// A trial's scores against the reference: (metric, value), in the metrics' own order.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Scores(pub Vec<(&'static str, f64)>);
+
+/// What lies under a scene's chosen footprints.
+#[derive(Component, Clone, Debug)]
+pub struct Probes(pub Vec<Probe>);
+
+/// The distribution of normals under a pixel's footprint, true and as each strategy has it, on
+/// [`HemisphereGrid::fournier`].
+#[derive(Clone, Debug)]
+pub struct Probe {
+    /// The pixel, from the left and from the top.
+    pub pixel: [usize; 2],
+    /// Texels the footprint is across.
+    pub texels_across: f64,
+    /// The true distribution, densities per steradian.
+    pub truth: Vec<f32>,
+    /// One for each prefilter of the scene, by entity.
+    pub methods: Vec<ProbedMethod>,
+}
+
+/// A strategy's distribution at a [`Probe`].
+#[derive(Clone, Debug)]
+pub struct ProbedMethod {
+    /// The prefilter.
+    pub prefilter: Entity,
+    /// Its lobes.
+    pub surface: MultipleSurface,
+    /// Its distribution, densities per steradian.
+    pub density: Vec<f32>,
+    /// Total variation distance to the truth.
+    pub distance: f64,
+}
+
+/// Points of a footprint that make its true distribution.
+const PROBE_POINTS: u32 = 4096;
+
+pub(super) fn plugin(schedule: &mut Schedule) {
+    schedule.add_systems((score, probe).chain().in_set(Stage::Measure));
+}
+
+/// Scores one trial of the current scene that has a film.
+#[allow(clippy::type_complexity)]
+fn score(
+    mut commands: Commands,
+    current: Res<Current>,
+    references: Query<&ReferenceImage>,
+    pending: Query<(Entity, &TrialOf, &Exposure), Without<Scores>>,
+    mut progress: MessageWriter<Progress>,
+) {
+    let Ok(reference) = references.get(current.0) else { return };
+    let ours = pending.iter().filter(|(_, trial, _)| trial.scene == current.0);
+    let Some((trial, _, exposure)) = ours.min_by_key(|(entity, ..)| *entity) else { return };
+    let scores = metric::scores(&exposure.film, &reference.0.film);
+    commands.entity(trial).insert(Scores(scores));
+    progress.write(Progress::Scored { trial });
+}
+
+/// Looks under the current scene's chosen footprints, once all its prefilters are there.
+fn probe(
+    mut commands: Commands,
+    current: Res<Current>,
+    view: SceneView,
+    plans: Query<(&ProbePlan, &super::SceneOf), Without<Probes>>,
+    prefilters: Query<(Entity, &PrefilterOf, Option<&Prefilter>)>,
+    mut progress: MessageWriter<Progress>,
+) {
+    let Ok((plan, scene)) = plans.get(current.0) else { return };
+    let Some(staged) = view.of(current.0) else { return };
+    let ours = |of: &PrefilterOf| of.texture == scene.texture && of.material == scene.material;
+    let mut ready: Vec<(Entity, Option<&Prefilter>)> = prefilters
+        .iter()
+        .filter(|(_, of, _)| ours(of))
+        .map(|(entity, _, prefilter)| (entity, prefilter))
+        .collect();
+    if ready.iter().any(|(_, prefilter)| prefilter.is_none()) {
+        return;
+    }
+    ready.sort_by_key(|(entity, _)| *entity);
+    let found = plan.0.iter().filter_map(|&pixel| look_under(&staged, pixel, &ready)).collect();
+    commands.entity(current.0).insert(Probes(found));
+    progress.write(Progress::Probed { scene: current.0 });
+}
+
+/// The probe of one pixel; None if it misses the surface.
+fn look_under(
+    staged: &StagedScene<'_>,
+    pixel: [usize; 2],
+    prefilters: &[(Entity, Option<&Prefilter>)],
+) -> Option<Probe> {
+    let grid = HemisphereGrid::fournier();
+    let (view, map) = (&staged.view, staged.map);
+    let footprint = view.footprint(pixel[0] as f64 + 0.5, pixel[1] as f64 + 0.5)?;
+    let truth = true_distribution(view, map, &staged.material.base, pixel, PROBE_POINTS, &grid)?;
+    let methods = prefilters
+        .iter()
+        .filter_map(|&(entity, prefilter)| {
+            let surface = prefilter?.0.as_ref().ok()?.lobes_at(&footprint);
+            let density: Vec<f32> = grid
+                .samples()
+                .iter()
+                .map(|s| [s.direction.x, s.direction.y, s.direction.z].map(|c| c as f32))
+                .map(|h| surface.lobes().iter().map(|lobe| lobe.density(h)).sum())
+                .collect();
+            let distance = metric::total_variation(&grid, &density, &truth);
+            Some(ProbedMethod { prefilter: entity, surface, density, distance })
+        })
+        .collect();
+    let texels_across = footprint.texels_across(map.width(), map.height());
+    Some(Probe { pixel, texels_across, truth, methods })
+}

@@ -1,0 +1,129 @@
+//! Trials: a scene seen through a strategy at some number of samples.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemParam;
+
+use super::{
+    CameraPose, Current, Halt, LightSource, Map, Material, Prefilter, PrefilterOf, Progress,
+    SceneOf, Seed, Stage, SurfaceShape, Tiling,
+};
+use crate::render::{Film, PixelSampler, View, render};
+use crate::texture::NormalMap;
+
+/// A trial of a scene, through a prefilter (which names the strategy).
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub struct TrialOf {
+    pub scene: Entity,
+    pub prefilter: Entity,
+}
+
+/// Samples a pixel of a trial.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spp(pub u32);
+
+/// What a trial's rendering gave.
+#[derive(Component, Clone, Debug)]
+pub struct Exposure {
+    /// The image.
+    pub film: Arc<Film>,
+    /// Wall-clock seconds it took.
+    pub secs: f64,
+}
+
+pub(super) fn plugin(schedule: &mut Schedule) {
+    schedule.add_systems(expose.in_set(Stage::Render));
+}
+
+/// A scene put together from its entities.
+pub struct StagedScene<'a> {
+    /// What is seen.
+    pub view: View,
+    /// The map on the surface.
+    pub map: &'a Arc<NormalMap>,
+    /// What the surface is made of.
+    pub material: Material,
+}
+
+/// Puts scenes together.
+#[derive(SystemParam)]
+pub struct SceneView<'w, 's> {
+    scenes: Query<'w, 's, (&'static SceneOf, &'static Tiling)>,
+    maps: Query<'w, 's, &'static Map>,
+    surfaces: Query<'w, 's, &'static SurfaceShape>,
+    cameras: Query<'w, 's, &'static CameraPose>,
+    lights: Query<'w, 's, &'static LightSource>,
+    materials: Query<'w, 's, &'static Material>,
+}
+
+impl SceneView<'_, '_> {
+    /// The scene, if its texture is loaded.
+    pub fn of(&self, scene: Entity) -> Option<StagedScene<'_>> {
+        let (of, tiling) = self.scenes.get(scene).ok()?;
+        let map = &self.maps.get(of.texture).ok()?.normals;
+        let material = *self.materials.get(of.material).ok()?;
+        let untiled = View {
+            camera: self.cameras.get(of.camera).ok()?.camera,
+            surface: self.surfaces.get(of.surface).ok()?.0,
+            light: self.lights.get(of.light).ok()?.0,
+            shading: material.shading,
+            wrap: map.wrap(),
+        };
+        Some(StagedScene { view: tiled(untiled, *tiling, map), map, material })
+    }
+}
+
+/// The view with its surface tiled.
+pub(super) fn tiled(view: View, tiling: Tiling, map: &NormalMap) -> View {
+    let aspect = map.height() as f64 / map.width() as f64;
+    let tiles = match tiling {
+        Tiling::Tiles(tiles) => tiles,
+        Tiling::TexelsPerPixel(wanted) => {
+            let one = View { surface: view.surface.tiled(1.0, aspect), ..view };
+            let across = texels_across_centre(&one, map).unwrap_or(wanted);
+            // A sphere rounds its tiling: compare with what one tile a unit came out as.
+            wanted / across * one.surface.tiles_across()
+        }
+    };
+    View { surface: view.surface.tiled(tiles, aspect), ..view }
+}
+
+/// Texels across the pixel at the image's centre.
+pub fn texels_across_centre(view: &View, map: &NormalMap) -> Option<f64> {
+    let (x, y) = (0.5 * view.camera.width() as f64, 0.5 * view.camera.height() as f64);
+    Some(view.footprint(x, y)?.texels_across(map.width(), map.height()))
+}
+
+/// Renders one trial of the current scene that has no film yet.
+#[allow(clippy::type_complexity)]
+fn expose(
+    mut commands: Commands,
+    current: Res<Current>,
+    (halt, seed): (Res<Halt>, Res<Seed>),
+    view: SceneView,
+    prefilters: Query<&Prefilter, With<PrefilterOf>>,
+    pending: Query<(Entity, &TrialOf, &Spp), Without<Exposure>>,
+    mut progress: MessageWriter<Progress>,
+) {
+    let Some(staged) = view.of(current.0) else { return };
+    let ready = |trial: &TrialOf| {
+        let prefilter = prefilters.get(trial.prefilter).ok()?;
+        prefilter.0.as_ref().ok().cloned()
+    };
+    let next = pending
+        .iter()
+        .filter(|(_, trial, _)| trial.scene == current.0)
+        .filter_map(|(entity, trial, spp)| Some((entity, ready(trial)?, spp.0)))
+        .min_by_key(|(entity, ..)| *entity);
+    let Some((trial, map, spp)) = next else { return };
+    let (sampler, start) = (PixelSampler::new(spp), Instant::now());
+    let stop = || halt.now();
+    if let Ok(film) = render(&staged.view, map.as_ref(), &sampler, seed.0, 0, &stop) {
+        let secs = start.elapsed().as_secs_f64();
+        commands.entity(trial).insert(Exposure { film: Arc::new(film), secs });
+        progress.write(Progress::Rendered { trial });
+    }
+}

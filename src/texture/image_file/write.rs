@@ -1,0 +1,62 @@
+//! Normal maps to image files.
+
+use std::io::Write;
+use std::path::Path;
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+
+use super::ImageError;
+use crate::texture::NormalMap;
+
+/// Writes a map's normals as a 16-bit RGB PNG, green up, [`super::Zero::Middle`]: each sample is
+/// 65535·(c + 1)/2 rounded. Weights are not stored. The same map gives the same bytes on every
+/// machine. The file appears whole or not at all.
+///
+/// # Errors
+/// [`ImageError::Unwritable`].
+pub fn write_normal_map_png16(path: impl AsRef<Path>, map: &NormalMap) -> Result<(), ImageError> {
+    let rows = map.texels().chunks(map.width()).rev();
+    let samples: Vec<u16> = rows
+        .flatten()
+        .flat_map(|t| [t[0], t[1], t[2]])
+        .map(|c| (32_767.5 * (f64::from(c) + 1.0) + 0.5) as u16)
+        .collect();
+    let path = path.as_ref();
+    let unwritable = |source| ImageError::Unwritable { path: path.to_owned(), source };
+    let mut bytes = Vec::new();
+    // "Fast" is compressed by the PNG crate itself; other settings ask a library that may differ.
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
+        .write_image(
+            bytemuck::cast_slice(&samples),
+            map.width() as u32,
+            map.height() as u32,
+            ExtendedColorType::Rgb16,
+        )
+        .map_err(|e| unwritable(std::io::Error::other(e)))?;
+    write_whole(path, &bytes).map_err(unwritable)
+}
+
+/// Puts `bytes` at `path` so that a reader, or a crash, never finds part of them: into a temporary
+/// file beside it, to the disk, then under its name.
+///
+/// # Errors
+/// What the system says; `path` is as it was then.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".writing-");
+    #[cfg(unix)]
+    {
+        // As any new file: temporary files are private otherwise. The system takes off its mask.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map(|_| ()).map_err(|e| e.error)
+}
