@@ -39,11 +39,13 @@ fn sections() -> [(&'static str, Vec<(String, String)>); 4] {
         .into_iter()
         .map(|name| {
             let path = std::path::Path::new(experiments::FOLDER).join(format!("{name}.toml"));
-            let what = Spec::load(&path).map_or("has errors: run it to see them".into(), |s| s.title);
+            let what =
+                Spec::load(&path).map_or("has errors: run it to see them".into(), |s| s.title);
             (name, what)
         })
         .collect();
-    let methods = method::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
+    let methods =
+        method::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
     let patterns =
         pattern::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
     let surfaces = SURFACES.into_iter().map(|(name, what)| (name.into(), what.into()));
@@ -75,10 +77,8 @@ fn as_json() -> Json {
             })
         })
         .collect();
-    let surfaces: Vec<Json> = SURFACES
-        .iter()
-        .map(|(name, what)| json!({ "name": name, "summary": what }))
-        .collect();
+    let surfaces: Vec<Json> =
+        SURFACES.iter().map(|(name, what)| json!({ "name": name, "summary": what })).collect();
     json!({
         "experiments": experiments::names(),
         "methods": methods,

@@ -2,7 +2,9 @@
 
 use bevy_ecs::prelude::*;
 
-use super::spec::{LightSpec, Reading as ReadingSpec, Scale, Shape as ShapeSpec, Spec, TextureSource, TextureSpec};
+use super::spec::{
+    LightSpec, Reading as ReadingSpec, Scale, Shape as ShapeSpec, Spec, TextureSource, TextureSpec,
+};
 use crate::light::Light;
 use crate::lobe::BaseLobe;
 use crate::method;
@@ -62,7 +64,8 @@ pub struct PlannedTrial {
 /// Spawns all entities of the experiment.
 pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     let world = &mut stage.world;
-    let textures: Vec<Entity> = spec.sweep.textures.iter().map(|t| spawn_texture(world, t)).collect();
+    let textures: Vec<Entity> =
+        spec.sweep.textures.iter().map(|t| spawn_texture(world, t)).collect();
     let strategies: Vec<Entity> = spec
         .sweep
         .methods
@@ -80,8 +83,10 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .collect();
     let surface = world.spawn(SurfaceShape(shape(spec.surface))).id();
     let light = world.spawn(LightSource(lit(&spec.light))).id();
-    let placements: Vec<Placement> =
-        placements(spec).into_iter().map(|(pose, tiling)| Placement::spawn(world, pose, tiling)).collect();
+    let placements: Vec<Placement> = placements(spec)
+        .into_iter()
+        .map(|(pose, tiling)| Placement::spawn(world, pose, tiling))
+        .collect();
 
     let mut plan = Plan { textures, scenes: Vec::new() };
     for (index, &texture) in plan.textures.iter().enumerate() {
@@ -128,9 +133,8 @@ impl Placement {
 fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
     let pose = |distance: f64| {
         let (at, image) = (&spec.camera, &spec.image);
-        let camera = Camera::orbiting(
-            distance, at.elevation, at.azimuth, at.fov, image.width, image.height,
-        );
+        let camera =
+            Camera::orbiting(distance, at.elevation, at.azimuth, at.fov, image.width, image.height);
         CameraPose { camera, distance }
     };
     match &spec.sweep.scale {

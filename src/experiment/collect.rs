@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::author::{Plan, PlannedScene, load};
+use super::keys;
 use super::results::{
     Costs, MethodInfo, Peak, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo, Results,
     SceneKey, SceneResult, Score, TextureInfo, TrialCost, TrialResult,
 };
-use super::keys;
 use super::spec::{Spec, TextureSource, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, Store};
 use crate::lobe::{Shading, Spread};

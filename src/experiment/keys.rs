@@ -15,13 +15,7 @@ pub(super) const PROBES: &str = "probes";
 pub(super) fn common(spec: &Spec) -> String {
     format!(
         "{:?} {:?} {:?} {:?} {:?} {:?} {}",
-        spec.image,
-        spec.surface,
-        spec.camera,
-        spec.light,
-        spec.shading,
-        spec.reference,
-        spec.seed
+        spec.image, spec.surface, spec.camera, spec.light, spec.shading, spec.reference, spec.seed
     )
 }
 

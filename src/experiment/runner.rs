@@ -12,9 +12,7 @@ use super::collect::{collect, known_scores, named_scores, probe_records};
 use super::keys;
 use super::results::{Costs, Results};
 use super::spec::Spec;
-use super::store::{
-    PrefilterRecord, ProbeRecord, ReferenceRecord, Store, StoreError, TrialRecord,
-};
+use super::store::{PrefilterRecord, ProbeRecord, ReferenceRecord, Store, StoreError, TrialRecord};
 use crate::render::Converged;
 use crate::scene::{
     BuildCost, Current, Exposure, Failure, Halt, LoadError, Prefilter, Probes, Progress,
@@ -207,9 +205,8 @@ impl Run<'_> {
             let record: Option<PrefilterRecord> = self.store.find(&folder, &name, &depends);
             record.is_some_and(|record| record.refusal.is_some())
         };
-        let done = |trial: &PlannedTrial| {
-            world.get::<Scores>(trial.entity).is_some() || refused(trial)
-        };
+        let done =
+            |trial: &PlannedTrial| world.get::<Scores>(trial.entity).is_some() || refused(trial);
         world.get::<ReferenceImage>(scene.entity).is_some()
             && scene.trials.iter().all(done)
             && self.store.find::<Vec<ProbeRecord>>(&scene.slug, keys::PROBES, &depends).is_some()
@@ -259,7 +256,13 @@ impl Run<'_> {
         };
         let record = ReferenceRecord { spp: image.0.spp, rmse: image.0.rmse };
         let depends = keys::scene(scene);
-        self.store.keep_with_film(&scene.slug, keys::REFERENCE, &depends, &record, &image.0.film)?;
+        self.store.keep_with_film(
+            &scene.slug,
+            keys::REFERENCE,
+            &depends,
+            &record,
+            &image.0.film,
+        )?;
         Ok(())
     }
 
@@ -273,13 +276,10 @@ impl Run<'_> {
         else {
             return Ok(());
         };
-        let record = TrialRecord {
-            scores: named_scores(scores),
-            secs: exposure.secs,
-        };
+        let record = TrialRecord { scores: named_scores(scores), secs: exposure.secs };
         let rmse = scores.0.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |s| s.1);
         let name = keys::trial_name(self.spec, trial);
-            let depends = keys::trial(self.spec, scene, trial);
+        let depends = keys::trial(self.spec, scene, trial);
         self.store.keep_with_film(&scene.slug, &name, &depends, &record, &exposure.film)?;
         let work = self.trial_work(trial);
         (self.watch)(RunEvent::Advanced { work, kept: false });

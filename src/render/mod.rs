@@ -15,10 +15,14 @@ pub use film::Film;
 /// stub
 pub struct FilmError;
 impl Film {
-/// stub
-pub fn write_exr(&self, _p: &std::path::Path) -> Result<(), FilmError> { Ok(()) }
-/// stub
-pub fn read_exr(_p: &std::path::Path) -> Result<Film, FilmError> { Err(FilmError) }
+    /// stub
+    pub fn write_exr(&self, _p: &std::path::Path) -> Result<(), FilmError> {
+        Ok(())
+    }
+    /// stub
+    pub fn read_exr(_p: &std::path::Path) -> Result<Film, FilmError> {
+        Err(FilmError)
+    }
 }
 pub use probe::true_distribution;
 pub use reference::{Converged, average};

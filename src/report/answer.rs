@@ -4,11 +4,11 @@
 use serde::Serialize;
 
 use super::caveats::{certainty, printed_forms, refusals};
-use super::contest::{Comparison, Contest, Setting, geometric_mean, median, unique};
-use super::equivalent::Equivalent;
+use super::contest::{Comparison, Contest, Setting, geometric_mean, median, rank, unique};
 use super::phrase::{self, count, list, range};
 use super::scale::Scale;
 use crate::experiment::results::MethodInfo;
+use crate::metric::Equivalent;
 
 /// What a report opens with.
 #[derive(Serialize)]
@@ -139,9 +139,9 @@ pub fn gains(comparison: &Comparison, label: &str, other: &str) -> Vec<f64> {
 pub fn worth(comparison: &Comparison, label: &str) -> Option<(Equivalent, Equivalent, Equivalent)> {
     let found: Vec<Equivalent> =
         comparison.contests().filter_map(|c| c.standing(label)?.worth).collect();
-    let by_rank = |a: &&Equivalent, b: &&Equivalent| a.rank().total_cmp(&b.rank());
+    let by_rank = |a: &&Equivalent, b: &&Equivalent| rank(**a).total_cmp(&rank(**b));
     let (low, high) = (*found.iter().min_by(by_rank)?, *found.iter().max_by(by_rank)?);
-    Some((median(found, Equivalent::rank)?, low, high))
+    Some((median(found, rank)?, low, high))
 }
 
 fn extent(values: &[f64]) -> Option<(f64, f64)> {

@@ -1,10 +1,10 @@
 //! Results arranged for comparison: settings, scales, and in each scene who came closest.
 
-use super::equivalent::{Equivalent, equivalent_samples};
 use super::phrase;
 use super::scale::{Scale, scales};
 use crate::experiment::results::{MethodInfo, Results, SceneKey, SceneResult};
 use crate::geometry::elementary::{exp64, ln64};
+use crate::metric::{Equivalent, equivalent_samples};
 
 /// The metric that decides: root mean square error against the reference.
 pub const DECIDES: &str = "rmse";
@@ -153,6 +153,15 @@ pub fn curve(scene: &SceneResult, label: &str) -> Vec<(u32, f64)> {
     let mut curve: Vec<_> = scored.filter(|(_, error)| error.is_finite()).collect();
     curve.sort_by_key(|&(spp, _)| spp);
     curve
+}
+
+/// A key that orders equivalents from worst to best.
+pub fn rank(worth: Equivalent) -> f64 {
+    match worth {
+        Equivalent::FewerThan(_) => 0.0,
+        Equivalent::Samples(samples) => samples,
+        Equivalent::MoreThan(_) => f64::INFINITY,
+    }
 }
 
 /// Items without repeats, in the order of first appearance.

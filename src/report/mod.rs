@@ -18,7 +18,6 @@ mod contest;
 mod costs;
 mod curves;
 mod disc;
-mod equivalent;
 mod figures;
 mod files;
 mod font;
@@ -38,7 +37,6 @@ mod fixture;
 
 use std::path::{Path, PathBuf};
 
-pub use equivalent::{Equivalent, equivalent_samples};
 pub use files::ReportError;
 
 use crate::experiment::results::{Costs, Results};

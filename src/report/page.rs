@@ -44,7 +44,7 @@ struct SettingTables {
 #[derive(Serialize)]
 struct Definition<'a> {
     word: &'a str,
-    meaning: &'static str,
+    meaning: String,
 }
 
 impl<'a> Page<'a> {
@@ -82,7 +82,7 @@ impl<'a> Page<'a> {
 
 fn shadings(results: &Results) -> Vec<Definition<'_>> {
     let names = unique(results.scenes.iter().map(|s| s.key.shading.as_str()));
-    let define = |word| Definition { word, meaning: words::shading_formula(word) };
+    let define = |word| Definition { word, meaning: words::shading_formula(word).into() };
     names.into_iter().map(define).collect()
 }
 

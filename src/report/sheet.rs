@@ -47,7 +47,7 @@ pub fn frames(scene: &SceneResult, spp: u32) -> Frames {
     let full = median(sizes, |v| v).filter(|v| *v > 0.0).unwrap_or(white);
     let first = Frame {
         label: "reference".into(),
-        remark: format!("{} samples a pixel", reference.spp),
+        remark: format!("{} samples", reference.spp),
         image: tone::picture(&reference.film, white),
         error: None,
     };

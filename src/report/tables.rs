@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::answer::{gains, wins, worth};
-use super::contest::{Comparison, Contest, DECIDES, Setting, geometric_mean, median, unique};
+use super::contest::{Comparison, Contest, DECIDES, Setting, geometric_mean, median, rank, unique};
 use super::phrase;
 use super::scale::Scale;
+use super::words::better;
 use crate::experiment::results::MethodInfo;
 
 /// A table of text.
@@ -107,7 +108,7 @@ pub fn winners(setting: &Setting) -> Table {
     let cell = |scale: &Scale, texture: &str| {
         let contest = setting.at(scale).find(|c| c.scene.key.texture == texture);
         let winners = || contest.into_iter().flat_map(Contest::winners);
-        let worth = winners().filter_map(|s| s.worth).max_by(|a, b| a.rank().total_cmp(&b.rank()));
+        let worth = winners().filter_map(|s| s.worth).max_by(|a, b| rank(*a).total_cmp(&rank(*b)));
         Cell {
             text: winners().map(|s| label(s.method)).collect::<Vec<_>>().join(" = "),
             aside: worth.map_or_else(String::new, phrase::samples_short),
@@ -178,7 +179,7 @@ pub fn other_metrics(comparison: &Comparison) -> Option<Table> {
         title: "Other measures, median over all scenes".into(),
         head: head.collect(),
         rows: rows.collect(),
-        notes: Vec::new(),
+        notes: metrics.iter().filter_map(|m| Some(format!("{m}: {}.", better(m)?))).collect(),
     })
 }
 
