@@ -1,9 +1,10 @@
 //! Results arranged for comparison: settings, scales, and in each scene who came closest.
 
-use super::equivalent::{Equivalent, equivalent_samples};
 use super::phrase;
+use super::scale::{Scale, scales};
 use crate::experiment::results::{MethodInfo, Results, SceneKey, SceneResult};
 use crate::geometry::elementary::{exp64, ln64};
+use crate::metric::{Equivalent, equivalent_samples};
 
 /// The metric that decides: root mean square error against the reference.
 pub const DECIDES: &str = "rmse";
@@ -67,16 +68,16 @@ impl<'a> Contest<'a> {
 pub struct Setting<'a> {
     /// Surface, light, base lobe and shading, in words.
     pub name: String,
-    /// Its scales, in words, from fine to coarse.
-    pub scales: Vec<String>,
+    /// Its scales, from fine to coarse.
+    pub scales: Vec<Scale>,
     /// One a scene, in the order of the results.
     pub contests: Vec<Contest<'a>>,
 }
 
 impl<'a> Setting<'a> {
     /// The scenes of one scale.
-    pub fn at<'b>(&'b self, scale: &'b str) -> impl Iterator<Item = &'b Contest<'a>> {
-        self.contests.iter().filter(move |c| scale_of(&c.scene.key) == scale)
+    pub fn at<'b>(&'b self, scale: &'b Scale) -> impl Iterator<Item = &'b Contest<'a>> {
+        scale.members.iter().map(|&i| &self.contests[i])
     }
 
     /// The texture names, in the order of first appearance.
@@ -119,16 +120,11 @@ impl<'a> Comparison<'a> {
 }
 
 fn setting<'a>(results: &'a Results, name: String, spp: u32) -> Setting<'a> {
-    let mut scenes: Vec<&SceneResult> =
+    let scenes: Vec<&SceneResult> =
         results.scenes.iter().filter(|s| setting_name(&s.key) == name).collect();
+    let keys: Vec<_> = scenes.iter().map(|s| &s.key).collect();
     let contests = scenes.iter().map(|scene| Contest::of(results, scene, spp)).collect();
-    scenes.sort_by(|a, b| a.key.texels_per_pixel.total_cmp(&b.key.texels_per_pixel));
-    Setting { name, scales: unique(scenes.iter().map(|s| scale_of(&s.key))), contests }
-}
-
-/// The scale of a scene in words, to three digits: scenes with the same words are compared.
-pub fn scale_of(key: &SceneKey) -> String {
-    phrase::scale(key.texels_per_pixel)
+    Setting { name, scales: scales(&keys), contests }
 }
 
 /// Surface, light, base lobe and shading of a scene, in words.
@@ -157,6 +153,15 @@ pub fn curve(scene: &SceneResult, label: &str) -> Vec<(u32, f64)> {
     let mut curve: Vec<_> = scored.filter(|(_, error)| error.is_finite()).collect();
     curve.sort_by_key(|&(spp, _)| spp);
     curve
+}
+
+/// A key that orders equivalents from worst to best.
+pub fn rank(worth: Equivalent) -> f64 {
+    match worth {
+        Equivalent::FewerThan(_) => 0.0,
+        Equivalent::Samples(samples) => samples,
+        Equivalent::MoreThan(_) => f64::INFINITY,
+    }
 }
 
 /// Items without repeats, in the order of first appearance.

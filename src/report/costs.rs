@@ -1,12 +1,12 @@
 //! Costs, kept apart from everything reproducible: `costs.csv` and `costs.md`.
 
 use super::contest::{Comparison, brute_force_curve, geometric_mean, median};
-use super::equivalent::{Equivalent, equivalent_samples};
 use super::page;
 use super::phrase;
 use super::tables::{Cell, Table, label};
 use super::tidy::{round_trip, table};
 use crate::experiment::results::{Costs, Results, SceneResult};
+use crate::metric::{SpeedUp, equivalent_samples};
 
 const COLUMNS: [&str; 8] =
     ["kind", "scene", "method", "lobe", "parameter", "spp", "measure", "value"];
@@ -115,17 +115,18 @@ fn scene_speed_up(
 ) -> Option<(f64, bool)> {
     let brute = &results.methods.iter().find(|m| m.name == "unfiltered")?.label;
     let error = scene.trials.iter().find(|t| t.method == label && t.spp == spp)?.score("rmse")?;
-    let (samples, bound) = match equivalent_samples(&brute_force_curve(results, scene), error)? {
-        Equivalent::Samples(n) => (n, false),
-        Equivalent::MoreThan(n) => (f64::from(n), true),
-        Equivalent::FewerThan(_) => return None,
-    };
+    let worth = equivalent_samples(&brute_force_curve(results, scene), error)?;
     let of_scene = || costs.trials.iter().filter(|t| t.scene == scene.slug);
     let own = of_scene().find(|t| t.method == label && t.spp == spp)?.ns_per_pixel;
     // The time of a sample is steadiest at the highest count, where fixed costs vanish.
     let most = of_scene().filter(|t| &t.method == brute).max_by_key(|t| t.spp)?;
     let per_sample = most.ns_per_pixel / f64::from(most.spp.max(1));
-    (own > 0.0).then(|| (samples * per_sample / own, bound))
+    match worth.speed_up(per_sample, own)? {
+        SpeedUp::Times(times) => Some((times, false)),
+        SpeedUp::MoreThan(times) => Some((times, true)),
+        // Brute force is closer with the fewest samples it was measured at: nothing to compare.
+        SpeedUp::FewerThan(_) => None,
+    }
 }
 
 #[cfg(test)]

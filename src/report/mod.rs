@@ -9,14 +9,27 @@
 //! | `costs.csv`, `costs.md` | times and memory | no |
 
 mod answer;
+mod axis;
+mod canvas;
+mod caveats;
+mod chart;
+mod colour;
 mod contest;
 mod costs;
-mod equivalent;
+mod curves;
+mod disc;
+mod figures;
 mod files;
+mod font;
+mod grid;
+mod mark;
 mod page;
 mod phrase;
+mod scale;
+mod sheet;
 mod tables;
 mod tidy;
+mod tone;
 mod words;
 
 #[cfg(test)]
@@ -24,7 +37,6 @@ mod fixture;
 
 use std::path::{Path, PathBuf};
 
-pub use equivalent::{Equivalent, equivalent_samples};
 pub use files::ReportError;
 
 use crate::experiment::results::{Costs, Results};
@@ -42,7 +54,41 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
     folder.put("metrics.json", &tidy::json(results))?;
     folder.put("costs.csv", &costs::csv(costs))?;
     folder.put("costs.md", costs::markdown(results, costs).as_bytes())?;
-    let page = page::Page::of(results);
+    let figures = figures::Figures::of(results);
+    for (name, png) in figures.files() {
+        folder.put(name, png)?;
+    }
+    let page = page::Page::of(results, &figures);
     folder.put("report.md", page::markdown(&page).as_bytes())?;
+    folder.put("report.html", page::html(&page).as_bytes())?;
     Ok(folder.written())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_results_give_the_same_bytes() {
+        let (results, costs) = (fixture::results(), fixture::costs());
+        let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+        let [one, two] = folders.each_ref().map(|f| write(&results, &costs, f.path()).unwrap());
+        assert_eq!(one.len(), two.len());
+        for (a, b) in one.iter().zip(&two) {
+            assert_eq!(a.file_name(), b.file_name());
+            assert!(std::fs::read(a).unwrap() == std::fs::read(b).unwrap(), "{}", a.display());
+        }
+    }
+
+    #[test]
+    fn times_stay_out_of_everything_but_the_costs() {
+        let results = fixture::results();
+        let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+        let costs = [fixture::costs(), Costs::default()];
+        let written = [0, 1].map(|i| write(&results, &costs[i], folders[i].path()).unwrap());
+        let differ = written[0].iter().zip(&written[1]);
+        let differ = differ.filter(|(a, b)| std::fs::read(a).unwrap() != std::fs::read(b).unwrap());
+        let names: Vec<_> = differ.map(|(a, _)| a.file_name().unwrap().to_owned()).collect();
+        assert_eq!(names, ["costs.csv", "costs.md"]);
+    }
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::answer::{Answer, answer};
 use super::contest::{Comparison, unique};
+use super::figures::Figures;
 use super::tables::{self, Table};
 use super::words;
 use crate::experiment::results::{MethodInfo, Results, TextureInfo};
@@ -19,12 +20,14 @@ pub struct Page<'a> {
     question: &'a str,
     answer: Answer,
     ranking: Table,
+    dagger: Option<String>,
     settings: Vec<SettingTables>,
     others: Option<Table>,
     methods: &'a [MethodInfo],
     textures: &'a [TextureInfo],
     shadings: Vec<Definition<'a>>,
     metrics: Vec<Definition<'a>>,
+    figures: &'a Figures,
     spec: &'a str,
     seed: u64,
 }
@@ -33,6 +36,7 @@ pub struct Page<'a> {
 #[derive(Serialize)]
 struct SettingTables {
     name: String,
+    winners: Table,
     tables: Vec<Table>,
 }
 
@@ -40,15 +44,16 @@ struct SettingTables {
 #[derive(Serialize)]
 struct Definition<'a> {
     word: &'a str,
-    meaning: &'static str,
+    meaning: String,
 }
 
 impl<'a> Page<'a> {
     /// The report on these results.
-    pub fn of(results: &'a Results) -> Self {
+    pub fn of(results: &'a Results, figures: &'a Figures) -> Self {
         let comparison = Comparison::of(results);
         let settings = comparison.settings.iter().map(|setting| SettingTables {
             name: setting.name.clone(),
+            winners: tables::winners(setting),
             tables: setting
                 .scales
                 .iter()
@@ -61,12 +66,14 @@ impl<'a> Page<'a> {
             question: &results.question,
             answer: answer(&comparison),
             ranking: tables::ranking(&comparison),
+            dagger: tables::dagger(&results.methods),
             settings: settings.collect(),
             others: tables::other_metrics(&comparison),
             methods: &results.methods,
             textures: &results.textures,
             shadings: shadings(results),
             metrics: metrics(results),
+            figures,
             spec: &results.spec,
             seed: results.seed,
         }
@@ -75,7 +82,7 @@ impl<'a> Page<'a> {
 
 fn shadings(results: &Results) -> Vec<Definition<'_>> {
     let names = unique(results.scenes.iter().map(|s| s.key.shading.as_str()));
-    let define = |word| Definition { word, meaning: words::shading_formula(word) };
+    let define = |word| Definition { word, meaning: words::shading_formula(word).into() };
     names.into_iter().map(define).collect()
 }
 
@@ -90,6 +97,11 @@ fn metrics(results: &Results) -> Vec<Definition<'_>> {
 /// `report.md`.
 pub fn markdown(page: &Page) -> String {
     render("report.md", context! { page => Serde(page) })
+}
+
+/// `report.html`.
+pub fn html(page: &Page) -> String {
+    render("report.html", context! { page => Serde(page) })
 }
 
 /// `costs.md`.
@@ -115,6 +127,9 @@ fn environment() -> Environment<'static> {
     for (name, source) in [
         ("table.md", include_str!("templates/table.md")),
         ("report.md", include_str!("templates/report.md")),
+        ("report.html", include_str!("templates/report.html")),
+        ("style.css", include_str!("templates/style.css")),
+        ("script.js", include_str!("templates/script.js")),
         ("costs.md", include_str!("templates/costs.md")),
     ] {
         environment
@@ -146,7 +161,8 @@ mod tests {
 
     #[test]
     fn the_markdown_report() {
-        insta::assert_snapshot!(markdown(&Page::of(&fixture::results())));
+        let results = fixture::results();
+        insta::assert_snapshot!(markdown(&Page::of(&results, &Figures::of(&results))));
     }
 
     #[test]
@@ -159,6 +175,27 @@ mod tests {
         let mut results = fixture::results();
         results.scenes.clear();
         results.textures.clear();
-        assert!(markdown(&Page::of(&results)).contains("Nothing was measured"));
+        let figures = Figures::of(&results);
+        let page = Page::of(&results, &figures);
+        assert!(markdown(&page).contains("Nothing was measured"));
+        assert!(html(&page).contains("Nothing was measured"));
+    }
+
+    #[test]
+    fn the_page_escapes_hostile_names_and_reaches_for_nothing() {
+        let mut results = fixture::results();
+        let hostile = "<script>alert(1)</script>\" onload=\"x";
+        results.textures[0].name = hostile.into();
+        results.title = hostile.into();
+        for scene in &mut results.scenes {
+            scene.key.texture = hostile.into();
+        }
+        let page = html(&Page::of(&results, &Figures::of(&results)));
+        assert!(page.contains("&lt;script&gt;alert(1)"));
+        assert!(!page.contains("<script>alert"));
+        assert!(!page.contains("\" onload=\""));
+        for outside in ["http:", "https:", "src=\"/", "url(", "@import", "<link"] {
+            assert!(!page.contains(outside), "{outside}");
+        }
     }
 }

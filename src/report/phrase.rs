@@ -1,6 +1,6 @@
 //! Numbers and lists as a reader wants them.
 
-use super::Equivalent;
+use crate::metric::Equivalent;
 
 /// Three significant digits, as `0.0123`, `12.3` or `1230`; `1.23×10⁻⁷` where zeros would pile up.
 pub fn number(value: f64) -> String {

@@ -3,8 +3,10 @@
 use serde::Serialize;
 
 use super::answer::{gains, wins, worth};
-use super::contest::{Comparison, Contest, DECIDES, Setting, geometric_mean, median, unique};
+use super::contest::{Comparison, Contest, DECIDES, Setting, geometric_mean, median, rank, unique};
 use super::phrase;
+use super::scale::Scale;
+use super::words::better;
 use crate::experiment::results::MethodInfo;
 
 /// A table of text.
@@ -48,7 +50,8 @@ pub fn label(method: &MethodInfo) -> String {
     if method.normalised { method.label.clone() } else { format!("{} †", method.label) }
 }
 
-fn dagger(methods: &[MethodInfo]) -> Option<String> {
+/// What the dagger of [`label`] means, if it is used.
+pub fn dagger(methods: &[MethodInfo]) -> Option<String> {
     let any = methods.iter().any(|m| !m.normalised);
     any.then(|| "† as printed, without a normalisation: wrong brightness counts as error.".into())
 }
@@ -99,8 +102,34 @@ fn worth_cell(comparison: &Comparison, label: &str) -> Cell {
     })
 }
 
+/// Who came closest: scale by texture. All that tie are named.
+pub fn winners(setting: &Setting) -> Table {
+    let textures = setting.textures();
+    let cell = |scale: &Scale, texture: &str| {
+        let contest = setting.at(scale).find(|c| c.scene.key.texture == texture);
+        let winners = || contest.into_iter().flat_map(Contest::winners);
+        let worth = winners().filter_map(|s| s.worth).max_by(|a, b| rank(*a).total_cmp(&rank(*b)));
+        Cell {
+            text: winners().map(|s| label(s.method)).collect::<Vec<_>>().join(" = "),
+            aside: worth.map_or_else(String::new, phrase::samples_short),
+            best: false,
+        }
+    };
+    let rows = setting.scales.iter().map(|scale| {
+        let cells = textures.iter().map(|texture| cell(scale, texture));
+        std::iter::once(scale.label.as_str().into()).chain(cells).collect()
+    });
+    let head = std::iter::once("Closest").chain(textures.iter().copied()).map(str::to_owned);
+    Table {
+        title: "Closest to the reference, and its worth in unfiltered samples a pixel".into(),
+        head: head.collect(),
+        rows: rows.collect(),
+        notes: Vec::new(),
+    }
+}
+
 /// Method by texture at one scale of a setting.
-pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &str) -> Table {
+pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &Scale) -> Table {
     let textures = setting.textures();
     let contest_of = |texture: &str| setting.at(scale).find(|c| c.scene.key.texture == texture);
     let contests: Vec<_> = textures.iter().map(|t| contest_of(t)).collect();
@@ -115,10 +144,10 @@ pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &str) -> Tabl
     let floor = std::iter::once("the reference’s own".into()).chain(floor).collect();
     let head = std::iter::once("RMSE").chain(textures.iter().copied()).map(str::to_owned);
     Table {
-        title: format!("{scale} {} a pixel", if scale == "1" { "texel" } else { "texels" }),
+        title: scale.label.clone(),
         head: head.collect(),
         rows: rows.chain(std::iter::once(floor)).collect(),
-        notes: reasons(&contests).into_iter().chain(dagger(methods)).collect(),
+        notes: reasons(&contests),
     }
 }
 
@@ -150,7 +179,7 @@ pub fn other_metrics(comparison: &Comparison) -> Option<Table> {
         title: "Other measures, median over all scenes".into(),
         head: head.collect(),
         rows: rows.collect(),
-        notes: dagger(&comparison.results.methods).into_iter().collect(),
+        notes: metrics.iter().filter_map(|m| Some(format!("{m}: {}.", better(m)?))).collect(),
     })
 }
 
@@ -183,7 +212,8 @@ mod tests {
     fn a_refused_cell_is_empty_with_its_reason_below() {
         let results = fixture::results();
         let comparison = Comparison::of(&results);
-        let table = at_scale(&comparison, &comparison.settings[0], "4");
+        let table =
+            at_scale(&comparison, &comparison.settings[0], &comparison.settings[0].scales[1]);
         let waves = &table.rows[5][3];
         assert!(waves.text.is_empty());
         assert!(table.notes[0].starts_with("kautz: its table"), "{:?}", table.notes);
@@ -193,7 +223,8 @@ mod tests {
     fn each_texture_has_one_best_method_unless_tied() {
         let results = fixture::results();
         let comparison = Comparison::of(&results);
-        let table = at_scale(&comparison, &comparison.settings[0], "16");
+        let table =
+            at_scale(&comparison, &comparison.settings[0], &comparison.settings[0].scales[2]);
         for column in 1..table.head.len() {
             assert_eq!(table.rows.iter().filter(|row| row[column].best).count(), 1);
         }

@@ -1,34 +1,38 @@
-//! How it was measured, in words: formulas of shadings and metrics.
+//! How it was measured, in words and symbols.
 
-/// What a shading computes, in symbols.
+use crate::metric;
+
+/// What a shading computes, in symbols; radiance is for the multiple surface of density D.
 pub fn shading_formula(shading: &str) -> &'static str {
     match shading {
         "ndf" => {
-            "L = E · D(h): irradiance E = max(0, n·l) · (light) times the density D of the multiple surface at the half vector h"
+            "radiance Σ E · D(h), the sum over lobes; E the irradiance on a plane facing the light, h the half vector"
         }
         "microfacet" => {
-            "L = E · D(h) · G(l, v) / (4 (n·l) (n·v)): D at the half vector, with shadowing and masking G"
+            "radiance Σ E · D(h) · G₁(l) G₁(v) / (4 n·v), the sum over lobes; E the irradiance on a plane facing the light, \
+             l, v and h the directions to light and eye and their half vector, n the lobe’s axis, G₁ Smith’s shadowing"
         }
-        _ => "as described by the program that wrote the results",
+        _ => "as its program computes it",
     }
 }
 
-/// What a metric is, by its name in `metrics.csv`. A is the image, R the reference, mean over pixels.
-pub fn metric_formula(metric: &str) -> Option<&'static str> {
-    Some(match metric {
-        "rmse" => "√ mean (A − R)²: root mean square error of linear radiance",
-        "mae" => "mean |A − R|: mean absolute error of linear radiance",
-        "relmse" => {
-            "mean (A − R)² / (R² + ε): squared error relative to the reference, ε keeps dark pixels finite"
-        }
-        "ssim" => {
-            "structural similarity of the tone-mapped images (Wang et al. 2004), 1 for equal images"
-        }
-        "bias" => "mean (A − R): whether the image is too bright (above 0) or too dark",
-        "energy" => "Σ A / Σ R: the share of the reference's light that the image holds",
-        "ndf_l1" => {
-            "½ ∫ |D − D_true| cos θ dω: 0 for equal distributions of normals, 1 for disjoint ones"
-        }
-        _ => return None,
+/// What a metric of `metrics.csv` is: its meaning and formula, with its constants.
+pub fn metric_formula(name: &str) -> Option<String> {
+    if name == "ndf_l1" {
+        return Some(
+            "distance of distributions of normals, 0 for equal and 1 for disjoint ones: ½ ∫ |D − D_true| cos θ dω"
+                .into(),
+        );
+    }
+    metric::find(name).map(|metric| format!("{}: {}", metric.meaning, metric.formula))
+}
+
+/// Whether a higher value is better.
+pub fn better(name: &str) -> Option<&'static str> {
+    use metric::Best;
+    metric::find(name).map(|metric| match metric.best {
+        Best::Lowest => "lower is better",
+        Best::Highest => "higher is better",
+        Best::One => "1 is best",
     })
 }

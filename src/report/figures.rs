@@ -1,0 +1,183 @@
+//! Every figure of a report: its file, its picture and its caption.
+
+use base64::Engine;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::canvas::{Canvas, png_of};
+use super::contest::{Comparison, Setting, setting_name};
+use super::phrase::{self, count};
+use super::scale::texels;
+use super::sheet::{self, Frame, Frames};
+
+use super::{curves, disc};
+use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo};
+
+/// A picture with what it shows.
+#[derive(Serialize)]
+pub struct Figure {
+    /// Its file, relative to the report.
+    file: String,
+    /// What it shows, a sentence or two.
+    caption: String,
+    /// How wide it is shown, CSS pixels.
+    width: u32,
+    /// The picture as a data URI.
+    uri: String,
+    #[serde(skip)]
+    png: Vec<u8>,
+}
+
+impl Figure {
+    fn new(file: String, caption: String, drawing: Canvas) -> Self {
+        let png = drawing.png();
+        Self { file, caption, width: drawing.width(), uri: data_uri(&png), png }
+    }
+}
+
+/// A PNG file as a URI that holds it.
+fn data_uri(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
+}
+
+/// The figures of a report.
+#[derive(Serialize)]
+pub struct Figures {
+    /// Error against samples over all scenes.
+    overall: Option<Figure>,
+    /// Figures of each setting: error against scale, error against samples scene by scene.
+    settings: Vec<SettingFigures>,
+    /// Figures of each scene.
+    scenes: Vec<SceneFigures>,
+    /// The textures' pictures, in their order.
+    textures: Vec<Option<String>>,
+}
+
+#[derive(Serialize)]
+struct SettingFigures {
+    name: String,
+    figures: Vec<Figure>,
+}
+
+#[derive(Serialize)]
+struct SceneFigures {
+    heading: String,
+    setting: String,
+    remark: String,
+    sheet: Figure,
+    frames: Vec<FrameImages>,
+    probes: Vec<Figure>,
+}
+
+/// One image for flipping.
+#[derive(Serialize)]
+struct FrameImages {
+    label: String,
+    remark: String,
+    image: String,
+    error: Option<String>,
+}
+
+impl Figures {
+    /// Draws every figure.
+    pub fn of(results: &Results) -> Self {
+        let comparison = Comparison::of(results);
+        let settings = comparison.settings.iter().enumerate();
+        let picture = |t: &TextureInfo| t.picture.as_ref().map(|p| data_uri(&png_of(p)));
+        Self {
+            overall: overall(&comparison),
+            settings: settings.map(|(i, s)| setting_figures(&comparison, s, i + 1)).collect(),
+            // Scene by scene in parallel, kept in order.
+            scenes: results.scenes.par_iter().map(|s| scene_figures(s, comparison.spp)).collect(),
+            textures: results.textures.iter().map(picture).collect(),
+        }
+    }
+
+    /// Every file with its bytes.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        let settings = self.settings.iter().flat_map(|s| &s.figures);
+        let scenes = self.scenes.iter().flat_map(|s| std::iter::once(&s.sheet).chain(&s.probes));
+        let all = self.overall.iter().chain(settings).chain(scenes);
+        all.map(|figure| (figure.file.as_str(), figure.png.as_slice()))
+    }
+}
+
+fn overall(comparison: &Comparison) -> Option<Figure> {
+    let plot = curves::overall(comparison)?;
+    let which = if plot.complete {
+        " that every method took part in"
+    } else {
+        "; not every method took part in each"
+    };
+    let slope = plot.slope.map_or_else(String::new, |slope| {
+        format!(
+            " From its first point to its last unfiltered goes as N to the power {}; independent samples would \
+             give −0.5.",
+            format!("{slope:.2}").replace('-', "−")
+        )
+    });
+    let caption = format!(
+        "RMSE against samples a pixel, the geometric mean over the {}{which}. A dashed line carries an error \
+         measured at one number of samples across, to where brute force meets it.{slope}",
+        count(plot.scenes, "scene"),
+    );
+    Some(Figure::new("plots/samples.png".into(), caption, plot.drawing))
+}
+
+fn setting_figures(comparison: &Comparison, setting: &Setting, number: usize) -> SettingFigures {
+    let spp = count(comparison.spp as usize, "sample");
+    let by_scale = curves::by_scale(comparison, setting).map(|drawing| {
+        let caption = format!("RMSE against scale at {spp} a pixel, texture by texture.");
+        Figure::new(format!("plots/scale-{number}.png"), caption, drawing)
+    });
+    let by_scene = curves::by_scene(comparison, setting).map(|drawing| {
+        let caption = "RMSE against samples a pixel, scene by scene.".to_owned();
+        Figure::new(format!("plots/samples-{number}.png"), caption, drawing)
+    });
+    let figures = [by_scale, by_scene].into_iter().flatten().collect();
+    SettingFigures { name: setting.name.clone(), figures }
+}
+
+fn scene_figures(scene: &SceneResult, spp: u32) -> SceneFigures {
+    let frames = sheet::frames(scene, spp);
+    let remark = format!(
+        "White is radiance {}. Errors are method − reference: blue too dark, orange too bright, in full colour \
+         at ±{}.",
+        phrase::number(frames.white),
+        phrase::number(frames.full),
+    );
+    let probes = scene.probes.iter().enumerate();
+    SceneFigures {
+        heading: format!("{}, {}", scene.key.texture, texels(scene.key.texels_per_pixel)),
+        setting: setting_name(&scene.key),
+        sheet: sheet_figure(scene, &frames, spp),
+        frames: frames.frames.iter().map(frame_images).collect(),
+        probes: probes.map(|(i, probe)| probe_figure(scene, probe, i + 1)).collect(),
+        remark,
+    }
+}
+
+fn sheet_figure(scene: &SceneResult, frames: &Frames, spp: u32) -> Figure {
+    let caption =
+        format!("The reference and each method at {} a pixel.", count(spp as usize, "sample"));
+    Figure::new(format!("images/{}.png", scene.slug), caption, sheet::sheet(frames))
+}
+
+fn frame_images(frame: &Frame) -> FrameImages {
+    FrameImages {
+        label: frame.label.clone(),
+        remark: frame.remark.clone(),
+        image: data_uri(&frame.png()),
+        error: frame.error.as_ref().map(|picture| data_uri(&png_of(picture))),
+    }
+}
+
+fn probe_figure(scene: &SceneResult, probe: &Probe, number: usize) -> Figure {
+    let [x, y] = probe.pixel;
+    let caption = format!(
+        "Distributions of normals under pixel ({x}, {y}), {} texels across: the hemisphere seen from above, \
+         x to the right, y up; colour is the square root of density. Rings mark lobes.",
+        phrase::scale(probe.texels_across),
+    );
+    Figure::new(format!("plots/{}-normals-{number}.png", scene.slug), caption, disc::draw(probe))
+}
