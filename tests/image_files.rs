@@ -263,7 +263,7 @@ fn sound(name: &str) -> Vec<u8> {
 #[test]
 fn what_is_not_there_or_not_an_image() {
     let folder = folder();
-    insta::assert_snapshot!(complaint(&folder.path().join("none.png")), @"none.png: there is no such file; a relative path starts at the file that names it");
+    insta::assert_snapshot!(complaint(&folder.path().join("none.png")), @"none.png: there is no such file; in an experiment file, a path is relative to that file");
     let (_a, path) = stored(b"", "empty.png");
     insta::assert_snapshot!(complaint(&path), @"empty.png: the image is empty; export it again");
     let (_b, path) = stored(b"# Hello", "text.png");
@@ -322,6 +322,13 @@ fn damage_and_what_is_not_supported() {
     bytes[red] = b'Y';
     let (_b, path) = stored(&bytes, "luminance.exr");
     insta::assert_snapshot!(complaint(&path), @"luminance.exr: this kind of file is not supported (image does not contain non-deep rgb channels); save it again as PNG, or as EXR with ZIP compression and R, G and B channels");
+
+    let mut bytes = sound("a.exr");
+    let name = b"compression\0compression\0\x01\0\0\0";
+    let at = bytes.windows(name.len()).position(|w| w == name).unwrap() + name.len();
+    bytes[at] = 9;
+    let (_d, path) = stored(&bytes, "lossy.exr");
+    insta::assert_snapshot!(complaint(&path), @"lossy.exr: this kind of file is not supported (DWAB compression); save it again as PNG, or as EXR with ZIP compression and R, G and B channels");
 
     let (_c, path) = saved(GrayImage::new(2, 2), "grey.png");
     insta::assert_snapshot!(complaint(&path), @r#"grey.png: a grey image holds no normals; read it with kind = "height""#);

@@ -116,7 +116,7 @@ fn a_hemisphere_holds_all_directions_equally() {
     };
     let errors = [64, 256, 1024].map(error);
     for (error, side) in errors.iter().zip([64.0f64, 256.0, 1024.0]) {
-        assert!(*error < 0.5 / side.sqrt(), "side {side}: {errors:?}");
+        assert!(*error < 0.1 / side.sqrt(), "side {side}: {errors:?}");
     }
 }
 
@@ -138,13 +138,15 @@ fn a_background_is_flat_or_nothing() {
 
 #[test]
 fn a_cylinder_holds_a_half_circle_equally() {
-    for (axis, across) in [("v", 0), ("u", 1)] {
-        let set = [("axis", Value::Word(axis)), ("count", number(2.0))];
-        let map = make("cylinders", [4096, 4096], &set, 0).normals;
-        // Equal in angle: E[n_x²] = E[n_z²] = 1/2, E[n_z] = 2/π, E[n_x⁴] = 3/8.
-        assert!((mean(&map, |n| n[across] * n[across]) - 0.5).abs() < 0.01);
-        assert!((mean(&map, |n| n[2]) - std::f64::consts::FRAC_2_PI).abs() < 0.01);
-        assert!((mean(&map, |n| n[across].powi(4)) - 0.375).abs() < 0.01);
+    // Equal in angle: E[n_x²] = 1/2, E[n_z] = 2/π, E[n_x⁴] = 3/8. The weight grows as the root of the
+    // distance to the rim, so a midpoint rule's error is as side^(-1/2).
+    let moments: [fn(f64, f64) -> f64; 3] = [|x, _| x * x, |_, z| z, |x, _| x.powi(4)];
+    for (axis, across, size) in [("v", 0, [2048, 2]), ("u", 1, [2, 2048])] {
+        let map = make("cylinders", size, &[("axis", Value::Word(axis))], 0).normals;
+        for (f, truth) in moments.iter().zip([0.5, std::f64::consts::FRAC_2_PI, 0.375]) {
+            let error = (mean(&map, |n| f(n[across], n[2])) - truth).abs();
+            assert!(error < 0.3 / 2048f64.sqrt(), "{error}");
+        }
         assert_eq!(mean(&map, |n| n[1 - across].abs()), 0.0);
     }
 }
@@ -249,7 +251,9 @@ proptest! {
 fn gaussian_slopes_are_near_normal() {
     let set = [("slope_variance_u", number(0.09)), ("slope_variance_v", number(0.01))];
     let map = make("gaussian", [256, 256], &set, 5).normals;
-    // About (256/6)² · const independent bumps: standard errors of skew and excess kurtosis ≲ 0.1.
+    // A bump is some 2·6 texels wide along u and three times that along v: about 150 independent ones.
+    // The standard errors are then √(6/150) = 0.2 for the skew and √(24/150) = 0.4 for the kurtosis at
+    // worst; over six seeds 0.1 and 0.2 were seen.
     for (axis, deviation) in [(0, 0.3), (1, 0.1)] {
         let moment = |power| slope_mean(&map, |x, y| ([x, y][axis] / deviation).powi(power));
         assert!((moment(2) - 1.0).abs() < 1e-5);

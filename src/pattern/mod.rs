@@ -4,6 +4,7 @@ mod bricks;
 mod cylinders;
 pub mod file;
 mod flat;
+mod fourier;
 mod gaussian;
 mod grid;
 mod hemispheres;

@@ -1,13 +1,12 @@
 //! Height fields made of waves that fit the tile.
 
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rayon::prelude::*;
 
 use super::Bumps;
+use super::fourier::{Complex, product, synthesise, turn};
 use crate::texture::{HeightMap, NormalMap, Wrap};
 
 /// A cosine wave that repeats with the tile: `amplitude` · cos(2π(m u + n v) + phase).
@@ -21,6 +20,18 @@ pub(super) struct Wave {
     pub amplitude: f64,
     /// Phase at (0, 0), radians.
     pub phase: f64,
+}
+
+impl Wave {
+    /// Where the wave stands in the transform of a map of `size`, and its complex amplitude at the first
+    /// texel's centre, times `times([kx, ky])`; k in radians a texel.
+    fn term(&self, size: [usize; 2], times: fn([f64; 2]) -> Complex) -> ([usize; 2], Complex) {
+        let periods = [self.m, self.n];
+        let k = [0, 1].map(|axis| TAU * f64::from(periods[axis]) / size[axis] as f64);
+        let [re, im] = product(times(k), turn(self.phase + 0.5 * (k[0] + k[1])));
+        let index = |axis: usize| i64::from(periods[axis]).rem_euclid(size[axis] as i64) as usize;
+        ([index(0), index(1)], [self.amplitude * re, self.amplitude * im])
+    }
 }
 
 /// The most periods that `size` texels hold apart from every other number of periods.
@@ -44,30 +55,15 @@ pub(super) struct Field {
 
 impl Field {
     /// The sum of these waves.
-    ///
-    /// Waves of one `m` are summed for each row first, then the rows are run through, as a transform
-    /// separates: width · height · (distinct m) + height · (waves) products, rows in parallel, each sum
-    /// in a fixed order.
     pub fn new(width: usize, height: usize, waves: &[Wave]) -> Self {
-        let mut columns: BTreeMap<i32, Vec<Wave>> = BTreeMap::new();
-        for &wave in waves {
-            columns.entry(wave.m).or_default().push(wave);
-        }
-        let (across, along) = (Turns::new(width), Turns::new(height));
-        let point = |j: usize| {
-            let row: Vec<(i32, Ripple)> =
-                columns.iter().map(|(&m, waves)| (m, Ripple::of_row(waves, &along, j))).collect();
-            let (across, row) = (&across, row);
-            (0..width).map(move |i| {
-                row.iter().fold([0.0; 3], |sum, (m, ripple)| {
-                    let add = ripple.at(across.turn(*m, i), TAU * f64::from(*m) / width as f64);
-                    [sum[0] + add[0], sum[1] + add[1], sum[2] + add[2]]
-                })
-            })
+        // What F, ∂F/∂x and ∂F/∂y make of a wave's complex amplitude: times 1, i kx and i ky.
+        let sum = |times: fn([f64; 2]) -> Complex| {
+            let terms = waves.iter().map(|w| w.term([width, height], times));
+            synthesise(width, height, terms)
         };
-        let rows: Vec<Vec<[f64; 3]>> =
-            (0..height).into_par_iter().map(|j| point(j).collect()).collect();
-        Self { width, height, points: rows.concat() }
+        let fields = [sum(|_| [1.0, 0.0]), sum(|k| [0.0, k[0]]), sum(|k| [0.0, k[1]])];
+        let point = |at: usize| [fields[0][at], fields[1][at], fields[2][at]];
+        Self { width, height, points: (0..width * height).map(point).collect() }
     }
 
     /// Mean over the texels of the squared slope along x and along y.
@@ -87,59 +83,6 @@ impl Field {
             heights: Some(HeightMap::new(self.width, self.height, Wrap::Repeat, heights)),
             notes,
         }
-    }
-}
-
-/// The waves of one `m` along a row: Re(c · turn) and, for ∂/∂y, Re(d · turn).
-struct Ripple {
-    value: [f64; 2],
-    rise: [f64; 2],
-}
-
-impl Ripple {
-    fn of_row(waves: &[Wave], along: &Turns, j: usize) -> Self {
-        let (mut value, mut rise) = ([0.0; 2], [0.0; 2]);
-        for wave in waves {
-            let (sin, cos) = libm::sincos(wave.phase);
-            let [x, y] = product([cos, sin], along.turn(wave.n, j));
-            let (re, im) = (wave.amplitude * x, wave.amplitude * y);
-            let k = TAU * f64::from(wave.n) / along.size as f64;
-            value = [value[0] + re, value[1] + im];
-            rise = [rise[0] - k * im, rise[1] + k * re]; // times i k
-        }
-        Self { value, rise }
-    }
-
-    /// [F, ∂F/∂x, ∂F/∂y] where `turn` is e^(i k x).
-    fn at(&self, turn: [f64; 2], k: f64) -> [f64; 3] {
-        let [re, im] = product(self.value, turn);
-        [re, -k * im, product(self.rise, turn)[0]]
-    }
-}
-
-/// The product of two complex numbers.
-fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
-    [a * c - b * d, a * d + b * c]
-}
-
-/// e^(2πi · m · (i + ½)/size) from a table over all half texels, indexed in whole numbers.
-struct Turns {
-    size: usize,
-    table: Vec<[f64; 2]>,
-}
-
-impl Turns {
-    fn new(size: usize) -> Self {
-        let turn = |k: usize| {
-            let (sin, cos) = libm::sincos(TAU * k as f64 / (2 * size) as f64);
-            [cos, sin]
-        };
-        Self { size, table: (0..2 * size).map(turn).collect() }
-    }
-
-    fn turn(&self, periods: i32, i: usize) -> [f64; 2] {
-        let half_texels = i64::from(periods) * (2 * i as i64 + 1);
-        self.table[half_texels.rem_euclid(2 * self.size as i64) as usize]
     }
 }
 

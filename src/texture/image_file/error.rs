@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
     /// There is no such file.
-    #[error("{}: there is no such file; a relative path starts at the file that names it", path.display())]
+    #[error("{}: there is no such file; in an experiment file, a path is relative to that file", path.display())]
     NotFound {
         /// The file.
         path: PathBuf,

@@ -4,6 +4,7 @@
 //! Samples are taken as stored: a map is data, so gamma and colour profiles are not looked at.
 
 mod error;
+mod exr;
 mod heights;
 mod normals;
 mod preview;

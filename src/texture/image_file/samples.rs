@@ -6,7 +6,7 @@ use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-use super::ImageError;
+use super::{ImageError, exr};
 
 /// Most pixels a side.
 const MOST: u32 = 16_384;
@@ -56,6 +56,9 @@ impl Samples {
     pub fn read(path: &Path) -> Result<Self, ImageError> {
         let mut file = BufReader::new(File::open(path).map_err(|e| ImageError::reading(path, e))?);
         let format = format_of(path, &mut file)?;
+        if format == ImageFormat::OpenExr {
+            check_exr(path, &mut file)?;
+        }
         let mut reader = ImageReader::with_format(file, format);
         let mut limits = Limits::default();
         limits.max_alloc = Some(MOST_PIXELS * 40);
@@ -132,7 +135,7 @@ fn flipped<T: Copy>(
 
 fn format_of(path: &Path, file: &mut BufReader<File>) -> Result<ImageFormat, ImageError> {
     use ImageFormat::{OpenExr, Png, Tiff, WebP};
-    let start = first_bytes(file).map_err(|e| ImageError::reading(path, e))?;
+    let start = first_bytes(file, 64).map_err(|e| ImageError::reading(path, e))?;
     let length = file.get_ref().metadata().map_err(|e| ImageError::reading(path, e))?.len();
     let path = path.to_owned();
     match image::guess_format(&start) {
@@ -146,11 +149,21 @@ fn format_of(path: &Path, file: &mut BufReader<File>) -> Result<ImageFormat, Ima
     }
 }
 
-fn first_bytes(file: &mut BufReader<File>) -> std::io::Result<Vec<u8>> {
+/// At most `count` bytes from the start, where the file is left.
+fn first_bytes(file: &mut BufReader<File>, count: u64) -> std::io::Result<Vec<u8>> {
     let mut start = Vec::new();
-    file.by_ref().take(64).read_to_end(&mut start)?;
+    file.by_ref().take(count).read_to_end(&mut start)?;
     file.rewind()?;
     Ok(start)
+}
+
+fn check_exr(path: &Path, file: &mut BufReader<File>) -> Result<(), ImageError> {
+    let start = first_bytes(file, exr::HEADER).map_err(|e| ImageError::reading(path, e))?;
+    if let Some(what) = exr::refused_compression(&start) {
+        return Err(ImageError::Unsupported { path: path.to_owned(), what: what.into() });
+    }
+    let [width, height] = exr::data_window(&start);
+    check_most(path, (width, height))
 }
 
 /// The length a RIFF file says it has, bytes.
@@ -169,14 +182,17 @@ fn name_of(format: ImageFormat) -> &'static str {
 }
 
 fn check_size(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError> {
-    let path = path.to_owned();
     if width == 0 || height == 0 {
-        return Err(ImageError::Empty { path });
+        return Err(ImageError::Empty { path: path.to_owned() });
     }
-    if width > MOST || height > MOST || u64::from(width) * u64::from(height) > MOST_PIXELS {
-        // A square of this side is the largest in all.
-        let limit = if width > MOST || height > MOST { MOST } else { 1 << 13 };
-        return Err(ImageError::TooLarge { path, width, height, limit });
+    check_most(path, (width, height))
+}
+
+fn check_most(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError> {
+    // A square of 8192 is the largest in all.
+    let limit = if width > MOST || height > MOST { MOST } else { 1 << 13 };
+    if limit == MOST || u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(ImageError::TooLarge { path: path.to_owned(), width, height, limit });
     }
     Ok(())
 }

@@ -1,0 +1,123 @@
+//! The discrete Fourier transform of any size.
+//!
+//! Written here because libraries choose their kernels by CPU, and a pattern must have the same bits
+//! on every machine.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
+/// A complex number [re, im].
+pub(super) type Complex = [f64; 2];
+
+/// The product of two complex numbers.
+pub(super) fn product([a, b]: Complex, [c, d]: Complex) -> Complex {
+    [a * c - b * d, a * d + b * c]
+}
+
+/// e^(i angle).
+pub(super) fn turn(angle: f64) -> Complex {
+    let (sin, cos) = libm::sincos(angle);
+    [cos, sin]
+}
+
+/// Re Σ c · e^(2πi (m i/width + n j/height)) at (i, j), row by row, over the coefficients c given by
+/// (m, n) within 0..width, 0..height. Rows without coefficients cost nothing.
+pub(super) fn synthesise(
+    width: usize,
+    height: usize,
+    coefficients: impl Iterator<Item = ([usize; 2], Complex)>,
+) -> Vec<f64> {
+    let mut sparse: BTreeMap<usize, Vec<Complex>> = BTreeMap::new();
+    for ([m, n], c) in coefficients {
+        let entry = &mut sparse.entry(n).or_insert_with(|| vec![[0.0; 2]; width])[m];
+        *entry = [entry[0] + c[0], entry[1] + c[1]];
+    }
+    let (across, along) = (Transform::new(width), Transform::new(height));
+    let sparse: Vec<(usize, Vec<Complex>)> = sparse.into_iter().collect();
+    let rows: Vec<(usize, Vec<Complex>)> =
+        sparse.into_par_iter().map(|(n, row)| (n, across.of(&row))).collect();
+    let column = |i: usize| {
+        let mut column = vec![[0.0; 2]; height];
+        rows.iter().for_each(|(n, row)| column[*n] = row[i]);
+        along.of(&column).into_iter().map(|c| c[0]).collect()
+    };
+    let columns: Vec<Vec<f64>> = (0..width).into_par_iter().map(column).collect();
+    (0..height).flat_map(|j| columns.iter().map(move |column| column[j])).collect()
+}
+
+/// The transform X_k = Σ x_r e^(2πi r k/size), by splitting off one prime factor of the size after the
+/// other (Cooley and Tukey 1965): size · (sum of the prime factors) products, so a large prime side is
+/// slow.
+struct Transform {
+    /// e^(2πi k/size).
+    turns: Vec<Complex>,
+}
+
+impl Transform {
+    fn new(size: usize) -> Self {
+        Self { turns: (0..size).map(|k| turn(TAU * k as f64 / size as f64)).collect() }
+    }
+
+    fn of(&self, input: &[Complex]) -> Vec<Complex> {
+        let mut out = vec![[0.0; 2]; input.len()];
+        self.split(input, 1, &mut out);
+        out
+    }
+
+    /// Transforms `out.len()` entries of `input`, `stride` apart, into `out`.
+    fn split(&self, input: &[Complex], stride: usize, out: &mut [Complex]) {
+        let size = out.len();
+        if size == 1 {
+            out[0] = input[0];
+            return;
+        }
+        let factor = smallest_factor(size);
+        let part = size / factor;
+        for (r, out) in out.chunks_exact_mut(part).enumerate() {
+            self.split(&input[r * stride..], stride * factor, out);
+        }
+        let mut turned = vec![[0.0; 2]; factor];
+        for k in 0..part {
+            for (r, t) in turned.iter_mut().enumerate() {
+                *t = product(out[r * part + k], self.turns[r * k * stride]);
+            }
+            for q in 0..factor {
+                let (mut sum, mut at) = ([0.0; 2], 0); // at = r q modulo the factor
+                for &t in &turned {
+                    let [re, im] = product(t, self.turns[at * part * stride]);
+                    sum = [sum[0] + re, sum[1] + im];
+                    at = if at + q < factor { at + q } else { at + q - factor };
+                }
+                out[q * part + k] = sum;
+            }
+        }
+    }
+}
+
+/// The smallest prime that divides `n` > 1.
+fn smallest_factor(n: usize) -> usize {
+    (2..).take_while(|p| p * p <= n).find(|p| n.is_multiple_of(*p)).unwrap_or(n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_size_is_the_sum_it_stands_for() {
+        for size in (1..=36).chain([49, 64, 97]) {
+            let input: Vec<Complex> = (0..size).map(|k| turn(0.7 * (k * k) as f64)).collect();
+            for (k, got) in Transform::new(size).of(&input).iter().enumerate() {
+                let mut want = [0.0; 2];
+                for (r, &x) in input.iter().enumerate() {
+                    let [re, im] = product(x, turn(TAU * ((r * k) % size) as f64 / size as f64));
+                    want = [want[0] + re, want[1] + im];
+                }
+                let error = (got[0] - want[0]).abs() + (got[1] - want[1]).abs();
+                assert!(error < 1e-12 * size as f64, "size {size}, entry {k}: {error}");
+            }
+        }
+    }
+}
