@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use wrinkle::pattern::file::{Reading, read};
 use wrinkle::texture::image_file::{
     Green, HeightReading, ImageError, NormalReading, Zero, read_height_map, read_normal_map,
-    write_normal_map_png16, write_whole,
+    write_normal_map_png16,
 };
 use wrinkle::texture::{NormalMap, Wrap};
 
@@ -361,19 +361,6 @@ fn giants_are_refused_before_they_are_read() {
     bytes[29..33].copy_from_slice(&sum);
     let (_folder, path) = stored(&bytes, "giant.png");
     insta::assert_snapshot!(complaint(&path), @"giant.png: 100000 × 1 pixels are too many; scale it down to at most 16384 a side");
-}
-
-#[test]
-fn a_file_is_replaced_whole_or_left_alone() {
-    let folder = folder();
-    let path = folder.path().join("a.bin");
-    write_whole(&path, b"first").unwrap();
-    write_whole(&path, b"second").unwrap();
-    assert_eq!(std::fs::read(&path).unwrap(), b"second");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left beside it");
-    let nowhere = folder.path().join("no/such/folder.png");
-    let error = write_normal_map_png16(&nowhere, &bumpy(2, 2, Wrap::Repeat)).unwrap_err();
-    assert!(matches!(error, ImageError::Unwritable { .. }), "{error}");
 }
 
 #[test]

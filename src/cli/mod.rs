@@ -1,11 +1,13 @@
 //! Floor 8: the command line. One file a subcommand; they own arguments, standard output and exit codes.
 
 mod args;
+mod compare;
 
 mod exit;
 mod experiments;
 mod list;
 mod progress;
+mod render;
 mod run;
 
 use std::process::ExitCode;
@@ -27,7 +29,8 @@ pub fn main() -> ExitCode {
     let exit = match command {
         Command::Run(args) => run::run(&args),
         Command::List(args) => list::list(&args),
-        _ => Ok(Exit::Done),
+        Command::Render(args) => render::render(&args),
+        Command::Compare(args) => compare::compare(&args),
     };
     match exit {
         Ok(exit) => exit.into(),

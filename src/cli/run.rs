@@ -94,7 +94,7 @@ impl Summary {
     fn new(results: &Results, secs: f64, folder: &Path, files: Vec<PathBuf>) -> Self {
         Self {
             name: results.name.clone(),
-            answer: Vec::new(),
+            answer: report::lead(results),
             folder: folder.to_owned(),
             files,
             scenes: results.scenes.len(),

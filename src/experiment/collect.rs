@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::author::{Plan, PlannedScene, load};
 use super::keys;
 use super::results::{
-    Costs, MethodInfo, Peak, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo, Results,
-    SceneKey, SceneResult, Score, TextureInfo, TrialCost, TrialResult,
+    Costs, MethodInfo, Peak, Picture, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo,
+    Results, SceneKey, SceneResult, Score, TextureInfo, TrialCost, TrialResult,
 };
 use super::spec::{Spec, TextureSource, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, Store};
@@ -14,6 +14,7 @@ use crate::lobe::{Shading, Spread};
 use crate::method;
 use crate::metric;
 use crate::scene::{Exposure, Probes, ReferenceImage, Scores, Stagehand, Tiling};
+use crate::texture::image_file::{Preview, preview};
 
 /// Gathers what a finished run has found, and fills in `costs`.
 pub(super) fn collect(
@@ -206,6 +207,12 @@ fn describe_texture(spec: &TextureSpec) -> TextureInfo {
         width: bumps.as_ref().map_or(0, |b| b.normals.width()),
         height: bumps.as_ref().map_or(0, |b| b.normals.height()),
         notes: bumps.as_ref().map_or_else(Vec::new, |b| b.notes.clone()),
-        picture: None,
+        picture: bumps.as_ref().map(|b| Arc::new(picture(&b.normals))),
     }
+}
+
+/// A map as a small picture.
+fn picture(map: &crate::texture::NormalMap) -> Picture {
+    let Preview { width, height, rgb } = preview(map, 192);
+    Picture { width, height, rgb }
 }

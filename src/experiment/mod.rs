@@ -3,6 +3,7 @@
 pub mod author;
 mod collect;
 mod keys;
+pub mod preview;
 pub mod results;
 pub mod runner;
 pub mod spec;

@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::results::{ProbedMethod, Score};
+use crate::file::write_whole;
 use crate::render::{Film, FilmError};
 
 /// The folder of an experiment's results.
@@ -182,7 +183,7 @@ impl Store {
         make_parent(&path)?;
         let kept = Kept { digest: self.digest(depends), image, value };
         let text = serde_json::to_vec(&kept).expect("records are plain data");
-        write_whole(&path, &text)
+        write_whole(&path, &text).map_err(|source| StoreError::Write { path, source })
     }
 
     fn read_record<T: DeserializeOwned>(
@@ -205,17 +206,4 @@ fn make_parent(path: &Path) -> Result<(), StoreError> {
     let parent = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(parent)
         .map_err(|source| StoreError::Write { path: parent.to_owned(), source })
-}
-
-/// Writes a file so that it is there whole or not at all.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    use std::io::Write;
-    let write = || {
-        let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(path).map_err(|e| e.error)?;
-        Ok(())
-    };
-    write().map_err(|source| StoreError::Write { path: path.to_owned(), source })
 }

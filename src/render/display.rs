@@ -17,7 +17,25 @@ pub fn srgb(linear: f64) -> u8 {
     (255.0 * encoded + 0.5) as u8
 }
 
+/// The share of a picture's pixels that stay below white.
+const BELOW_WHITE: f64 = 0.995;
+
+/// What 99.5 % of the finite values do not exceed; 0 if there are none.
+pub fn percentile(values: impl Iterator<Item = f32>) -> f64 {
+    let mut sorted: Vec<f32> = values.filter(|v| v.is_finite()).collect();
+    sorted.sort_by(f32::total_cmp);
+    let last = sorted.len().saturating_sub(1);
+    let index = (BELOW_WHITE * last as f64).ceil() as usize;
+    sorted.get(index.min(last)).map_or(0.0, |v| f64::from(*v))
+}
+
 impl Film {
+    /// The radiance to show as white: what 99.5 % of the pixels do not exceed; 1 for a black film.
+    pub fn white(&self) -> f64 {
+        let found = percentile(self.pixels().iter().copied());
+        if found > 0.0 { found } else { 1.0 }
+    }
+
     /// Writes the film as a grey 8-bit PNG, its radiances multiplied by `exposure` and encoded as sRGB.
     /// The file appears whole or not at all.
     ///

@@ -12,7 +12,7 @@ mod sampler;
 mod view;
 
 pub use camera::{Camera, direction};
-pub use display::{heat, srgb, write_error_png};
+pub use display::{heat, percentile, srgb, write_error_png};
 pub use film::Film;
 pub use image_file::{Coding, FilmError, StoredImage, read_image};
 pub use probe::true_distribution;

@@ -64,6 +64,11 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
     Ok(folder.written())
 }
 
+/// The answer in words, a short paragraph each: what a report opens with.
+pub fn lead(results: &Results) -> Vec<String> {
+    answer::answer(&contest::Comparison::of(results)).lead
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

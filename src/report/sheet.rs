@@ -41,7 +41,7 @@ pub struct Frames {
 /// The images of a scene at `spp` samples a pixel.
 pub fn frames(scene: &SceneResult, spp: u32) -> Frames {
     let reference = &scene.reference;
-    let white = tone::white(&reference.film);
+    let white = reference.film.white();
     let trials: Vec<_> = scene.trials.iter().filter(|t| t.spp == spp).collect();
     let sizes = trials.iter().map(|t| tone::error_size(&t.film, &reference.film)).collect();
     let full = median(sizes, |v| v).filter(|v| *v > 0.0).unwrap_or(white);

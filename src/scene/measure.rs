@@ -98,12 +98,12 @@ fn probe(
 
 /// The probe of one pixel; None if it misses the surface.
 fn look_under(
-    staged: &StagedScene<'_>,
+    staged: &StagedScene,
     pixel: [usize; 2],
     prefilters: &[(Entity, Option<&Prefilter>)],
 ) -> Option<Probe> {
     let grid = HemisphereGrid::fournier();
-    let (view, map) = (&staged.view, staged.map);
+    let (view, map) = (&staged.view, &staged.map);
     let footprint = view.footprint(pixel[0] as f64 + 0.5, pixel[1] as f64 + 0.5)?;
     let truth = true_distribution(view, map, &staged.material.base, pixel, PROBE_POINTS, &grid)?;
     let methods = prefilters

@@ -20,7 +20,7 @@ pub use measure::{Probe, ProbedMethod, Probes, Scores};
 pub use prefilter::{BuildCost, Prefilter, PrefilterOf, Strategy};
 pub use reference::ReferenceImage;
 pub use texture::{BumpSource, LoadError, Map, Texture};
-pub use trial::{Exposure, Spp, TrialOf};
+pub use trial::{Exposure, Spp, StagedScene, TrialOf, stage};
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -34,7 +34,7 @@ fn converge(
     let Ok((plan, replicates)) = scenes.get_mut(current.0) else { return };
     let Some(staged) = view.of(current.0) else { return };
     let unfiltered = method::brute_force()
-        .prefilter(staged.map, &staged.material.base, &Silent)
+        .prefilter(&staged.map, &staged.material.base, &Silent)
         .expect("the unfiltered method takes every lobe");
     let done = replicates.as_ref().map_or(0, |r| r.0.len()) as u32;
     let sampler = PixelSampler::new(plan.spp / plan.replicates);

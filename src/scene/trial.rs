@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
-use bevy_ecs::system::SystemParam;
+use bevy_ecs::system::{SystemParam, SystemState};
 
 use super::{
     CameraPose, Current, Halt, LightSource, Map, Material, Prefilter, PrefilterOf, Progress,
@@ -39,13 +39,19 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 }
 
 /// A scene put together from its entities.
-pub struct StagedScene<'a> {
+pub struct StagedScene {
     /// What is seen.
     pub view: View,
     /// The map on the surface.
-    pub map: &'a Arc<NormalMap>,
+    pub map: Arc<NormalMap>,
     /// What the surface is made of.
     pub material: Material,
+}
+
+/// The scene put together, if its texture is loaded.
+pub fn stage(world: &mut World, scene: Entity) -> Option<StagedScene> {
+    let mut state = SystemState::<SceneView>::new(world);
+    state.get(world).ok()?.of(scene)
 }
 
 /// Puts scenes together.
@@ -61,9 +67,9 @@ pub struct SceneView<'w, 's> {
 
 impl SceneView<'_, '_> {
     /// The scene, if its texture is loaded.
-    pub fn of(&self, scene: Entity) -> Option<StagedScene<'_>> {
+    pub fn of(&self, scene: Entity) -> Option<StagedScene> {
         let (of, tiling) = self.scenes.get(scene).ok()?;
-        let map = &self.maps.get(of.texture).ok()?.normals;
+        let map = Arc::clone(&self.maps.get(of.texture).ok()?.normals);
         let material = *self.materials.get(of.material).ok()?;
         let untiled = View {
             camera: self.cameras.get(of.camera).ok()?.camera,
@@ -72,7 +78,7 @@ impl SceneView<'_, '_> {
             shading: material.shading,
             wrap: map.wrap(),
         };
-        Some(StagedScene { view: tiled(untiled, *tiling, map), map, material })
+        Some(StagedScene { view: tiled(untiled, *tiling, &map), map, material })
     }
 }
 

@@ -15,7 +15,7 @@ pub use error::ImageError;
 pub use heights::{HeightReading, read_height_map};
 pub use normals::{Green, NormalReading, Zero, read_normal_map};
 pub use preview::{Preview, preview};
-pub use write::{write_normal_map_png16, write_whole};
+pub use write::write_normal_map_png16;
 
 /// A map from a file, and what is worth knowing about it.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,12 @@
 //! Normal maps to image files.
 
-use std::io::Write;
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use super::ImageError;
+use crate::file::write_whole;
 use crate::texture::NormalMap;
 
 /// Writes a map's normals as a 16-bit RGB PNG, green up, [`super::Zero::Middle`]: each sample is
@@ -35,28 +35,4 @@ pub fn write_normal_map_png16(path: impl AsRef<Path>, map: &NormalMap) -> Result
         )
         .map_err(|e| unwritable(std::io::Error::other(e)))?;
     write_whole(path, &bytes).map_err(unwritable)
-}
-
-/// Puts `bytes` at `path` so that a reader, or a crash, never finds part of them: into a temporary
-/// file beside it, to the disk, then under its name.
-///
-/// # Errors
-/// What the system says; `path` is as it was then.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".writing-");
-    #[cfg(unix)]
-    {
-        // As any new file: temporary files are private otherwise. The system takes off its mask.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map(|_| ()).map_err(|e| e.error)
 }

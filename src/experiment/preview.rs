@@ -1,0 +1,63 @@
+//! One image of an experiment, without keeping or scoring anything.
+
+use super::author::author;
+use super::spec::{Scale, Spec};
+use crate::method::{Method, Silent};
+use crate::render::{Film, PixelSampler, render};
+use crate::scene::{Current, Failure, Halt, Stagehand, stage};
+
+/// Which image of an experiment.
+#[derive(Clone, Copy, Debug)]
+pub struct Wish<'a> {
+    /// The texture by name; the first if None.
+    pub texture: Option<&'a str>,
+    /// Texels across the pixel at the image's centre; the experiment's first scale if None.
+    pub texels_per_pixel: Option<f64>,
+    /// Samples a pixel, at least 1.
+    pub spp: u32,
+}
+
+/// Why there is no image; a sentence.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct NoImage(String);
+
+/// Renders one image of an experiment through a method: its first lobe, and what `wish` chooses.
+///
+/// # Errors
+/// If there is no such texture, it cannot be loaded, or the method refuses the base lobe.
+pub fn render_one(spec: &Spec, method: &dyn Method, wish: &Wish<'_>) -> Result<Film, NoImage> {
+    let mut one = spec.clone();
+    one.sweep.methods.clear();
+    if let Some(name) = wish.texture {
+        one.sweep.textures.retain(|texture| texture.name == name);
+        if one.sweep.textures.is_empty() {
+            let known: Vec<&str> = spec.sweep.textures.iter().map(|t| t.name.as_str()).collect();
+            let known = known.join(", ");
+            return Err(NoImage(format!("there is no texture `{name}`; textures: {known}")));
+        }
+    }
+    if let Some(texels) = wish.texels_per_pixel {
+        if !(texels > 0.0 && texels.is_finite()) {
+            return Err(NoImage(format!("{texels} texels across a pixel make no image")));
+        }
+        one.sweep.scale = Scale::TexelsPerPixel(vec![texels]);
+    }
+    let mut hand = Stagehand::new(spec.seed, Halt::default());
+    let plan = author(&one, &mut hand);
+    let scene = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
+    hand.world.insert_resource(Current(scene.entity));
+    // With no method in the sweep, a tick loads the texture; the rest is done here.
+    hand.tick();
+    if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
+        return Err(NoImage(error.to_string()));
+    }
+    let staged = stage(&mut hand.world, scene.entity)
+        .ok_or_else(|| NoImage("the scene could not be put together".into()))?;
+    let prefiltered = method
+        .prefilter(&staged.map, &staged.material.base, &Silent)
+        .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;
+    let sampler = PixelSampler::new(wish.spp);
+    render(&staged.view, prefiltered.as_ref(), &sampler, spec.seed, 0, &|| false)
+        .map_err(|error| NoImage(error.to_string()))
+}
