@@ -7,10 +7,12 @@
 mod averaged;
 mod batch;
 pub mod fournier;
+mod lean;
 mod olano_north;
 mod one_lobe;
 mod registry;
 mod schilling;
+mod toksvig;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
