@@ -76,8 +76,8 @@ impl Lobe {
 /// Unit normals, row by row from the bottom of the picture.
 #[derive(Clone, Debug)]
 pub struct Map {
-    size: [i64; 2],
-    normals: Vec<V>,
+    pub size: [i64; 2],
+    pub normals: Vec<V>,
     pub repeats: bool,
     pub facets: bool,
 }
