@@ -128,11 +128,15 @@ pub fn floor64(x: f64) -> f64 {
     if nearest > x { nearest - 1.0 } else { nearest }
 }
 
-/// The largest whole number at or below x, for |x| < 2²².
+/// The largest whole number at or below x, for |x| < 2²², as an integer and as a float. The integer is
+/// read off the bits of a shifted sum: a cast would check for overflow lane by lane, which vector
+/// code cannot.
 #[inline(always)]
-pub fn floor32(x: f32) -> f32 {
-    let nearest = (x + ROUND_32) - ROUND_32;
-    if nearest > x { nearest - 1.0 } else { nearest }
+pub fn floor32(x: f32) -> (i32, f32) {
+    let shifted = x + ROUND_32;
+    let nearest = shifted - ROUND_32;
+    let integer = (shifted.to_bits() as i32).wrapping_sub(ROUND_32.to_bits() as i32);
+    if nearest > x { (integer - 1, nearest - 1.0) } else { (integer, nearest) }
 }
 
 #[cfg(test)]
@@ -181,7 +185,8 @@ mod tests {
         for i in -4000..4000 {
             let x = f64::from(i) * 0.25;
             assert_eq!(floor64(x), x.floor());
-            assert_eq!(floor32(x as f32), (x as f32).floor());
+            let floor = (x as f32).floor();
+            assert_eq!(floor32(x as f32), (floor as i32, floor));
         }
         assert_eq!(floor64(-1e-300), -1.0);
         assert_eq!(floor64(1e12 + 0.75), 1e12);

@@ -134,8 +134,7 @@ pub fn shade_by_lobes<P: Prefiltered + ?Sized>(
     for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
         *out = if batch.irradiance[i] > 0.0 {
             let surface = prefiltered.lobes_at(&batch.footprint(i));
-            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
+            let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
             batch.irradiance[i] * surface.radiance(shading, half, light, view)
         } else {
             0.0

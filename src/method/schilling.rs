@@ -139,11 +139,13 @@ fn roughness([p, px, py, pxx, pxy, pyy]: [f32; 6], base: f32) -> [f32; 6] {
     [p, px, py, d1, d2, d3]
 }
 
-/// D of K = D Dᵀ (Schilling 1997, *The calculation of the covariance matrix*).
+/// D of K = D Dᵀ: d₁ = √(a − b²/c), d₂ = b/√c, d₃ = √c (Schilling 1997, *The roughness pyramid*).
+/// Since K is a covariance |d₂| is at most √a; holding it there keeps rounding from making much of a
+/// direction with next to no variance.
 #[inline(always)]
 fn factor([a, b, c]: Sym2) -> [f32; 3] {
-    let d3 = c.max(0.0).sqrt();
-    let d2 = b / d3.max(f32::MIN_POSITIVE);
+    let (most, d3) = (a.max(0.0).sqrt(), c.max(0.0).sqrt());
+    let d2 = (b / d3.max(f32::MIN_POSITIVE)).clamp(-most, most);
     [(a - d2 * d2).max(0.0).sqrt(), d2, d3]
 }
 
@@ -327,5 +329,7 @@ mod tests {
     #[test]
     fn a_flat_direction_factors() {
         assert_eq!(factor([0.25, 0.0, 0.0]), [0.5, 0.0, 0.0]);
+        // A covariance that rounding left without positivity stays bounded.
+        assert_eq!(factor([0.25, 1e-9, 0.0]), [0.0, 0.5, 0.0]);
     }
 }
