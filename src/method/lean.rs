@@ -167,7 +167,10 @@ mod tests {
             let claimed = Lean.base_error(&base).unwrap();
             for degrees in [10.0, 20.0, 45.0, 65.0] {
                 let found = distance(&base, tilted(degrees));
-                eprintln!("{base} {degrees} {found} {}", found / f64::from(SlopeMoments::of(&base).variance).sqrt());
+                eprintln!(
+                    "{base} {degrees} {found} {}",
+                    found / f64::from(SlopeMoments::of(&base).variance).sqrt()
+                );
                 assert!(found <= claimed, "{base} {degrees}°: {found}");
             }
         }
