@@ -7,10 +7,12 @@
 mod averaged;
 mod batch;
 pub mod fournier;
+mod lean;
 mod olano_north;
 mod one_lobe;
 mod registry;
 mod schilling;
+mod toksvig;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
@@ -88,6 +90,12 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// # Errors
     /// A [`Refusal`] if it cannot take this base lobe at all.
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
+
+    /// A guess of the work of [`Method::prefilter`] a texel, in times of one unfiltered sample: it tells
+    /// how much of a long run is done.
+    fn prefilter_work(&self) -> f64 {
+        1.0
+    }
 
     /// Builds what is looked up while rendering. The map is shared, not copied.
     ///
