@@ -25,6 +25,7 @@ mod grid;
 mod mark;
 mod page;
 mod phrase;
+mod png;
 mod scale;
 mod sheet;
 mod tables;
