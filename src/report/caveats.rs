@@ -25,7 +25,9 @@ pub fn unhelped(comparison: &Comparison) -> Vec<String> {
     let all = count(comparison.contests().count(), "scene");
     let first = match scenes.len() {
         0 => format!("In each of {all} some filter was closer than {}.", brute.label),
-        n => format!("In {n} of {all} no filter was closer than {}{}.", brute.label, named(&scenes)),
+        n => {
+            format!("In {n} of {all} no filter was closer than {}{}.", brute.label, named(&scenes))
+        }
     };
     std::iter::once(first).chain(lookup(comparison, &brute.label)).collect()
 }
@@ -51,7 +53,8 @@ fn lookup(comparison: &Comparison, brute: &str) -> Option<String> {
 pub fn breakdowns(comparison: &Comparison) -> Vec<String> {
     let brute = comparison.brute_force().map(|b| b.label.as_str());
     let sentence = |label: &str| {
-        let lost: Vec<_> = comparison.contests().filter(|c| not_finite(comparison, c, label)).collect();
+        let lost: Vec<_> =
+            comparison.contests().filter(|c| not_finite(comparison, c, label)).collect();
         let wild = |c: &&Contest| {
             let limit = brute.and_then(|b| c.standing(b)).map(|s| BROKEN * s.error);
             c.standing(label).zip(limit).is_some_and(|(s, limit)| s.error > limit)
@@ -85,7 +88,11 @@ pub fn not_finite(comparison: &Comparison, contest: &Contest, label: &str) -> bo
 }
 
 /// How much closer a normalised form is than its printed one.
-pub fn printed_over_normalised(comparison: &Comparison, printed: &str, normalised: &str) -> Option<f64> {
+pub fn printed_over_normalised(
+    comparison: &Comparison,
+    printed: &str,
+    normalised: &str,
+) -> Option<f64> {
     geometric_mean(gains(comparison, normalised, printed).into_iter())
 }
 
@@ -169,7 +176,12 @@ mod tests {
             scene.refusals = vec![RefusalInfo { method: "kautz".into(), reason }];
         }
         let text = refusals(&results).join("\n");
-        assert!(text.ends_with("(those with a ggx or beckmann base lobe): a ggx or beckmann lobe is none."), "{text}");
+        assert!(
+            text.ends_with(
+                "(those with a ggx or beckmann base lobe): a ggx or beckmann lobe is none."
+            ),
+            "{text}"
+        );
     }
 
     #[test]
@@ -181,7 +193,15 @@ mod tests {
         trials[lost].scores.clear();
         trials[wild].scores[0].value = 1e17;
         let text = breakdowns(&Comparison::of(&results)).join("\n");
-        assert!(text.contains("averaged breaks down in 1 scene: bricks at 1 texel a pixel; pixels are not"), "{text}");
-        assert!(text.contains("fournier breaks down in 1 scene: bricks at 1 texel a pixel; its RMSE"), "{text}");
+        assert!(
+            text.contains(
+                "averaged breaks down in 1 scene: bricks at 1 texel a pixel; pixels are not"
+            ),
+            "{text}"
+        );
+        assert!(
+            text.contains("fournier breaks down in 1 scene: bricks at 1 texel a pixel; its RMSE"),
+            "{text}"
+        );
     }
 }

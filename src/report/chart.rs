@@ -98,7 +98,11 @@ impl Panel {
         points.iter().for_each(|point| mark(canvas, *point, style));
         for ((_, error), [x, y]) in positive.zip(&points).filter(|((_, y), _)| *y > self.y.high) {
             let at = [x + 7.0, y + HALF_CAPITAL * SMALL.size];
-            canvas.text(at, &format!("↑ {}", phrase::number(*error)), Type { ink: style.ink, ..SMALL });
+            canvas.text(
+                at,
+                &format!("↑ {}", phrase::number(*error)),
+                Type { ink: style.ink, ..SMALL },
+            );
         }
     }
 

@@ -134,14 +134,13 @@ fn choose(label: &str, at: &[&Choice], brute: &str) -> String {
 
 /// `1, 4 and 16 texels a pixel`.
 fn scales(at: &[&Choice]) -> String {
-    const UNIT: &str = " texels a pixel";
-    let counts: Vec<&str> =
-        at.iter().map(|c| c.scale.strip_suffix(UNIT).unwrap_or(&c.scale)).collect();
-    let several = list(&counts);
-    if counts.last().is_some_and(|c| at[at.len() - 1].scale.len() > c.len()) {
-        several + UNIT
-    } else {
-        several
+    const UNITS: [&str; 2] = [" texel a pixel", " texels a pixel"];
+    let bare = |scale: &'_ str| {
+        UNITS.iter().find_map(|unit| scale.strip_suffix(unit)).unwrap_or(scale).to_owned()
+    };
+    match at {
+        [one] => one.scale.clone(),
+        _ => list(&at.iter().map(|c| bare(&c.scale)).collect::<Vec<_>>()) + UNITS[1],
     }
 }
 

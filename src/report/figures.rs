@@ -138,14 +138,14 @@ fn overall(comparison: &Comparison) -> Option<Figure> {
     };
     let slope = plot.slope.map_or_else(String::new, |slope| {
         format!(
-            " From its first point to its last unfiltered goes as N to the power {}; independent samples would \
+            " Brute force falls as N to the power {} from its first point to its last; independent samples would \
              give −0.5.",
             format!("{slope:.2}").replace('-', "−")
         )
     });
     let caption = format!(
-        "RMSE against samples a pixel, the geometric mean over the {}{which}. A dashed line carries an error \
-         measured at one number of samples across, to where brute force meets it.{slope}",
+        "RMSE against samples a pixel, the geometric mean over the {}{which}. Heavy: brute force. A thin dashed line \
+         carries an error measured at one number of samples across, to where brute force meets it.{slope}",
         count(plot.scenes, "scene"),
     );
     Some(Figure::drawing("plots/samples.png".into(), caption, &plot.drawing))
@@ -154,11 +154,14 @@ fn overall(comparison: &Comparison) -> Option<Figure> {
 fn setting_figures(comparison: &Comparison, setting: &Setting, number: usize) -> SettingFigures {
     let spp = count(comparison.spp as usize, "sample");
     let by_scale = curves::by_scale(comparison, setting).map(|drawing| {
-        let caption = format!("RMSE against scale at {spp} a pixel, texture by texture.");
+        let caption = format!(
+            "RMSE against texels a pixel at {spp} a pixel, texture by texture. Shaded: under the reference’s own error."
+        );
         Figure::drawing(format!("plots/scale-{number}.png"), caption, &drawing)
     });
     let by_scene = curves::by_scene(comparison, setting).map(|drawing| {
-        let caption = "RMSE against samples a pixel, scene by scene.".to_owned();
+        let caption = "RMSE against samples a pixel, scene by scene. Shaded: under the reference’s own error."
+            .to_owned();
         Figure::drawing(format!("plots/samples-{number}.png"), caption, &drawing)
     });
     let figures = [by_scale, by_scene].into_iter().flatten().collect();
@@ -195,8 +198,9 @@ fn sheet_figure(scene: &SceneResult, frames: &Frames, spp: u32) -> Figure {
 fn films(scene: &SceneResult) -> Vec<Films> {
     let path = |name: &str| format!("images/{}/{name}.exr", scene.slug);
     let reference = FilmFile { spp: scene.reference.spp, path: path("reference") };
-    let trial = |t: &TrialResult| {
-        FilmFile { spp: t.spp, path: path(&format!("{}-{}spp", t.method, t.spp)) }
+    let trial = |t: &TrialResult| FilmFile {
+        spp: t.spp,
+        path: path(&format!("{}-{}spp", t.method, t.spp)),
     };
     let of_method = |label: &str| Films {
         label: label.to_owned(),
@@ -216,18 +220,11 @@ fn frame_images(frame: &Frame) -> FrameImages {
     }
 }
 
-fn probe_figure(
-    results: &Results,
-    scene: &SceneResult,
-    probe: &Probe,
-    number: usize,
-) -> Figure {
+fn probe_figure(results: &Results, scene: &SceneResult, probe: &Probe, number: usize) -> Figure {
     let [x, y] = probe.pixel;
     let caption = format!(
-        "Distributions of normals under pixel ({x}, {y}), {} texels across: the hemisphere seen from above, \
-         x to the right, y up. Colour is the square root of density, on the scale of the true distribution; \
-         what exceeds its greatest density is yellow. Rings mark the axes of lobes. The distance is \
-         ½ ∫ |D − D_true| cos θ dω: 0 for equal distributions, 1 for disjoint ones, more if energy is not kept.",
+        "Distributions of normals under pixel ({x}, {y}) of {}: a footprint {} texels across.",
+        scene.key.texture,
         phrase::scale(probe.texels_across),
     );
     let file = format!("plots/{}-normals-{number}.png", scene.slug);

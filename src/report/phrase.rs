@@ -41,7 +41,11 @@ pub fn times(value: f64) -> String {
 /// A part of a whole, to two digits: `4.3 %`, `51 %`, `105 %`.
 pub fn percent(part: f64) -> String {
     let percent = 100.0 * part;
-    let text = if percent > 0.0 && percent < 9.95 { format!("{percent:.1}") } else { number(percent.round()) };
+    let text = if percent > 0.0 && percent < 9.95 {
+        format!("{percent:.1}")
+    } else {
+        number(percent.round())
+    };
     format!("{}\u{a0}%", text.trim_end_matches(".0"))
 }
 
@@ -66,11 +70,6 @@ pub fn list<S: AsRef<str>>(items: &[S]) -> String {
             format!("{} and {}", most.join(", "), last.as_ref())
         }
     }
-}
-
-/// `from a to b`, or `a` where both are the same.
-pub fn range(from: &str, to: &str) -> String {
-    if from == to { from.to_owned() } else { format!("from {from} to {to}") }
 }
 
 /// A number of samples: `37`, `more than 256`, `less than 1`.
