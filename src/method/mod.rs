@@ -34,8 +34,9 @@ pub struct Card {
     pub formula: &'static str,
     /// What it cannot do.
     pub limits: &'static str,
-    /// Whether its lobes keep the energy of the footprint (see [`crate::lobe`]); false for forms
-    /// printed without a normalisation.
+    /// Whether its lobes keep the energy of the normals they stand for, within `precision` (see
+    /// [`crate::lobe`]): those of the footprint, or, if it does not keep roughness, the one normal it
+    /// draws. False for forms printed without a normalisation.
     pub normalised: bool,
     /// Whether bumps that fall into one footprint widen its lobes.
     pub keeps_roughness: bool,
