@@ -46,7 +46,7 @@ height = 16
 fn run(folder: &Path) -> Vec<PathBuf> {
     let spec = Spec::parse(SPEC, Path::new("tiny.toml")).unwrap();
     let halt = Halt(Arc::new(AtomicBool::new(false)));
-    let outcome = runner::run(&spec, folder, &halt, &mut |_| {}).unwrap();
+    let outcome = runner::run(&spec, folder, &halt, &runner::unwatched()).unwrap();
     let Outcome::Finished(found) = outcome else { panic!("nobody halted the run") };
     report::write(&found.0, &found.1, folder).unwrap()
 }
@@ -74,7 +74,8 @@ fn errors(folder: &Path) -> Errors {
 fn table(report: &str, first: &str) -> Vec<Vec<String>> {
     let head = report.find(&format!("| {first} |")).unwrap_or_else(|| panic!("no table {first}"));
     let lines = report[head..].lines().take_while(|line| line.starts_with('|')).skip(2);
-    let cells = |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
+    let cells =
+        |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
     lines.map(cells).collect()
 }
 

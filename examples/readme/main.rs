@@ -8,7 +8,7 @@ use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use wrinkle::experiment::results::{Results, SceneResult};
-use wrinkle::experiment::runner::{Outcome, run};
+use wrinkle::experiment::runner::{Outcome, run, unwatched};
 use wrinkle::experiment::spec::Spec;
 use wrinkle::render::{Film, heat, percentile, srgb};
 use wrinkle::scene::Halt;
@@ -23,7 +23,7 @@ const GAP: usize = 4;
 /// The run, with its records in `scratch`.
 pub fn results(root: &Path, scratch: &Path) -> Result<Results, Error> {
     let spec = Spec::load(&root.join("examples/readme/denim-ball.toml"))?;
-    match run(&spec, scratch, &Halt::default(), &mut |_| ())? {
+    match run(&spec, scratch, &Halt::default(), &unwatched())? {
         Outcome::Finished(found) => Ok(found.0),
         Outcome::Halted => Err("halted".into()),
     }
