@@ -7,10 +7,12 @@
 mod averaged;
 mod batch;
 pub mod fournier;
+mod lean;
 mod olano_north;
 mod one_lobe;
 mod registry;
 mod schilling;
+mod toksvig;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
@@ -32,8 +34,9 @@ pub struct Card {
     pub formula: &'static str,
     /// What it cannot do.
     pub limits: &'static str,
-    /// Whether its lobes keep the energy of the footprint (see [`crate::lobe`]); false for forms
-    /// printed without a normalisation.
+    /// Whether its lobes keep the energy of the normals they stand for, within `precision` (see
+    /// [`crate::lobe`]): those of the footprint, or, if it does not keep roughness, the one normal it
+    /// draws. False for forms printed without a normalisation.
     pub normalised: bool,
     /// Whether bumps that fall into one footprint widen its lobes.
     pub keeps_roughness: bool,
@@ -138,8 +141,7 @@ pub fn shade_by_lobes<P: Prefiltered + ?Sized>(
     for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
         *out = if batch.irradiance[i] > 0.0 {
             let surface = prefiltered.lobes_at(&batch.footprint(i));
-            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
+            let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
             batch.irradiance[i] * surface.radiance(shading, half, light, view)
         } else {
             0.0
