@@ -383,6 +383,29 @@ fn a_spec_tiles_to_the_texels_it_asks_for() {
 }
 
 #[test]
+fn weights_scale_light_and_are_interpolated() {
+    let up = |w| [0.0, 0.0, 1.0, w];
+    let map = Arc::new(NormalMap::new(2, 1, Wrap::Clamp, vec![up(1.0), up(3.0)]));
+    let base = BaseLobe::Ggx { alpha: 0.3 };
+    let map = build("unfiltered").unwrap().prefilter(&map, &base, &Silent).unwrap();
+    for (u, weight) in [(0.0, 1.0), (0.25, 1.0), (0.4, 1.6), (0.5, 2.0), (0.75, 3.0), (1.0, 3.0)] {
+        let at = Footprint { u, v: 0.5, ..Footprint::default() };
+        let density = f64::from(map.lobes_at(&at).density([0.0, 0.0, 1.0]));
+        assert!((density / (weight * Lobe::Ggx(0.3).density(1.0)) - 1.0).abs() < 1e-5, "u = {u}");
+    }
+}
+
+#[test]
+fn a_sphere_takes_whole_tiles_and_a_camera_above_has_north_on_top() {
+    for (asked, round) in [(5.3, 5.0), (5.6, 6.0), (0.2, 1.0)] {
+        let sphere = Sphere::new().tiled(asked / TAU, 0.75);
+        assert!((sphere.tiles_across() * TAU - round).abs() < 1e-12);
+    }
+    let [right, down] = Camera::orbiting(4.0, 90.0, 30.0, 25.0, 8, 8).ray_steps();
+    assert!(right.normalize().x > 1.0 - 1e-9 && down.normalize().y < -1.0 + 1e-9);
+}
+
+#[test]
 fn a_reference_is_the_mean_of_its_replicates_and_knows_its_error() {
     let films = [[1.0, 4.0], [3.0, 4.0]].map(|pixels| Film::new(2, 1, pixels.to_vec()));
     let reference = average(&films, 512);

@@ -1,51 +1,27 @@
-//! The answer in words, computed from the results: who came closest, where, by how much, and what
-//! that is worth in unfiltered samples.
+//! The answer in words, computed from the results: which filter to choose where, what that is worth
+//! in unfiltered samples, and how often each came closest.
 
-use serde::Serialize;
-
-use super::caveats::{certainty, printed_forms, refusals};
-use super::contest::{Comparison, Contest, Setting, geometric_mean, median, rank, unique};
-use super::phrase::{self, count, list, range};
-use super::scale::Scale;
+use super::caveats::{breakdowns, certainty, refusals, unhelped};
+use super::choice::advice;
+use super::contest::{Comparison, Contest, median, rank, unique};
+use super::phrase::{count, list};
 use crate::experiment::results::MethodInfo;
 use crate::metric::Equivalent;
 
-/// What a report opens with.
-#[derive(Serialize)]
-pub struct Answer {
-    /// Sentences about the whole experiment, each a short paragraph.
-    pub lead: Vec<String>,
-    /// Sentences about each setting.
-    pub findings: Vec<Finding>,
-}
-
-/// What was found in one setting, scale by scale.
-#[derive(Serialize)]
-pub struct Finding {
-    /// The setting.
-    pub setting: String,
-    /// A sentence a scale.
-    pub sentences: Vec<String>,
-}
-
-/// The answer to a comparison.
-pub fn answer(comparison: &Comparison) -> Answer {
+/// The answer to a comparison: sentences, each a short paragraph.
+pub fn answer(comparison: &Comparison) -> Vec<String> {
     if comparison.contests().next().is_none() {
         let nothing = "Nothing was measured: no scene of this experiment has a scored trial.";
-        let lead = std::iter::once(nothing.to_owned()).chain(refusals(comparison.results));
-        return Answer { lead: lead.collect(), findings: Vec::new() };
+        return std::iter::once(nothing.to_owned()).chain(refusals(comparison.results)).collect();
     }
-    let lead = [Some(winner(comparison)), margin(comparison)];
-    let lead = lead.into_iter().flatten().chain(std::iter::once(field(comparison)));
-    let lead = lead.chain(printed_forms(comparison)).chain(refusals(comparison.results));
-    let findings = comparison.settings.iter().map(|setting| Finding {
-        setting: setting.name.clone(),
-        sentences: setting.scales.iter().filter_map(|s| at_scale(setting, s)).collect(),
-    });
-    Answer {
-        lead: lead.chain(certainty(comparison)).collect(),
-        findings: findings.filter(|f| !f.sentences.is_empty()).collect(),
-    }
+    let mut sentences = advice(comparison);
+    sentences.extend(unhelped(comparison));
+    sentences.push(winner(comparison));
+    sentences.push(field(comparison));
+    sentences.extend(breakdowns(comparison));
+    sentences.extend(refusals(comparison.results));
+    sentences.push(certainty(comparison));
+    sentences
 }
 
 /// What was compared.
@@ -54,8 +30,12 @@ fn field(comparison: &Comparison) -> String {
     let methods = unique(contests.iter().flat_map(|c| &c.standings).map(|s| &s.method.label)).len();
     let textures = unique(contests.iter().map(|c| &c.scene.key.texture)).len();
     let scales = comparison.settings.iter().map(|s| s.scales.len()).max().unwrap_or(0);
+    let settings = match comparison.settings.len() {
+        0 | 1 => String::new(),
+        more => format!(" in {}", count(more, "setting")),
+    };
     format!(
-        "Compared: {}, {} a pixel, each against a converged reference, in {}: {} at {}.",
+        "Compared: {} at {} a pixel, each against a converged reference, in {}: {} at {}{settings}.",
         count(methods, "method"),
         count(comparison.spp as usize, "sample"),
         count(contests.len(), "scene"),
@@ -89,43 +69,16 @@ fn winner(comparison: &Comparison) -> String {
     let leaders = leaders(comparison);
     let names: Vec<_> = leaders.iter().map(|m| m.label.as_str()).collect();
     let (alone, shared) = wins(comparison, names[0]);
-    let scenes = comparison.contests().count();
+    let scenes = count(comparison.contests().count(), "scene");
     let each = if names.len() > 1 { "each " } else { "" };
-    let mut text = format!("{} came closest most often: ", list(&names));
-    text += &match (alone, shared) {
-        (0, shared) => format!("{each}among the closest in {shared} of {}", count(scenes, "scene")),
-        (alone, 0) => format!("{each}alone in {alone} of {}", count(scenes, "scene")),
-        (alone, shared) => format!(
-            "{each}alone in {alone} of {}, and level with another in {shared} more",
-            count(scenes, "scene")
-        ),
+    let often = match (alone, shared) {
+        (0, shared) => format!("{each}among the closest in {shared} of {scenes}"),
+        (alone, 0) => format!("{each}alone in {alone} of {scenes}"),
+        (alone, shared) => {
+            format!("{each}alone in {alone} of {scenes}, and level with another in {shared} more")
+        }
     };
-    text + "."
-}
-
-/// How far ahead of no filter the leader is, and what that is worth.
-fn margin(comparison: &Comparison) -> Option<String> {
-    let [leader] = leaders(comparison)[..] else { return None };
-    let brute = comparison.brute_force().filter(|b| b.label != leader.label)?;
-    let ratios = gains(comparison, &leader.label, &brute.label);
-    let mean = geometric_mean(ratios.iter().copied())?;
-    let (low, high) = extent(&ratios)?;
-    let mut text = format!(
-        "Against {} at the same number of samples its RMSE is {} times smaller ({}; geometric mean over {})",
-        brute.label,
-        phrase::times(mean),
-        range(&phrase::times(low), &phrase::times(high)),
-        count(ratios.len(), "scene"),
-    );
-    if let Some((middle, low, high)) = worth(comparison, &leader.label) {
-        text += &format!(
-            "; {} needs {} samples a pixel to come as close (median; {})",
-            brute.label,
-            phrase::samples(middle),
-            range(&phrase::samples(low), &phrase::samples(high)),
-        );
-    }
-    Some(text + ".")
+    format!("Scene by scene, {} came closest most often: {often}.", list(&names))
 }
 
 /// Error of `other` over error of `label`, in every scene that has both.
@@ -144,44 +97,6 @@ pub fn worth(comparison: &Comparison, label: &str) -> Option<(Equivalent, Equiva
     Some((median(found, rank)?, low, high))
 }
 
-fn extent(values: &[f64]) -> Option<(f64, f64)> {
-    let low = values.iter().copied().reduce(f64::min)?;
-    Some((low, values.iter().copied().reduce(f64::max)?))
-}
-
-/// Who came closest at one scale, texture by texture.
-fn at_scale(setting: &Setting, scale: &Scale) -> Option<String> {
-    let contests: Vec<_> = setting.at(scale).filter(|c| !c.standings.is_empty()).collect();
-    let names = |c: &&Contest| c.winners().map(|s| s.method.label.clone()).collect::<Vec<_>>();
-    let clauses = unique(contests.iter().map(names)).into_iter().map(|winners| {
-        let won = contests.iter().filter(|c| names(c) == winners);
-        let textures: Vec<_> = won.map(|c| on_texture(c)).collect();
-        match winners.len() {
-            1 => format!("{} came closest on {}", winners[0], list(&textures)),
-            _ => format!("{} tied on {}", list(&winners), list(&textures)),
-        }
-    });
-    let clauses: Vec<_> = clauses.collect();
-    (!clauses.is_empty()).then(|| format!("At {}, {}.", scale.label, clauses.join("; ")))
-}
-
-/// `denim (1.8 times closer than schilling, worth 37 samples)`.
-fn on_texture(contest: &Contest) -> String {
-    let texture = &contest.scene.key.texture;
-    let Some(first) = contest.winners().min_by(|a, b| a.error.total_cmp(&b.error)) else {
-        return texture.clone();
-    };
-    let mut facts = vec![format!("RMSE {}", phrase::number(first.error))];
-    if let Some(next) = contest.runner_up().filter(|_| first.error > 0.0) {
-        let times = phrase::times(next.error / first.error);
-        facts.push(format!("{times} times below {}", next.method.label));
-    }
-    if let Some(worth) = first.worth.filter(|_| first.method.name != "unfiltered") {
-        facts.push(format!("worth {} samples", phrase::samples(worth)));
-    }
-    format!("{texture} ({})", facts.join(", "))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -189,19 +104,15 @@ mod tests {
     use crate::report::fixture;
 
     fn lead(results: &Results) -> String {
-        answer(&Comparison::of(results)).lead.join("\n")
+        answer(&Comparison::of(results)).join("\n")
     }
 
     #[test]
-    fn a_winner_is_named_with_its_margin_and_worth() {
-        let results = fixture::results();
-        let text = lead(&results);
+    fn the_answer_begins_with_what_to_choose() {
+        let text = lead(&fixture::results());
+        assert!(text.starts_with("Choose fournier at "), "{text}");
+        assert!(text.contains("which unfiltered reaches with"), "{text}");
         assert!(text.contains("fournier came closest most often"), "{text}");
-        assert!(text.contains("unfiltered needs"), "{text}");
-        let found = answer(&Comparison::of(&results));
-        assert_eq!(found.findings.len(), 1);
-        assert_eq!(found.findings[0].sentences.len(), fixture::SCALES.len());
-        assert!(found.findings[0].sentences[0].starts_with("At 1 texel a pixel, "));
     }
 
     #[test]
@@ -213,8 +124,6 @@ mod tests {
         let text = lead(&results);
         assert!(text.contains("among the closest in 12 of 12 scenes"), "{text}");
         assert!(text.contains("12 of 12 scenes ended in one"), "{text}");
-        let found = answer(&Comparison::of(&results)).findings;
-        assert!(found[0].sentences[0].contains(" tied on "), "{}", found[0].sentences[0]);
     }
 
     #[test]

@@ -1,65 +1,162 @@
-//! What an answer must add: printed forms, refusals, and how far the reference can be trusted.
+//! What an answer must add: where filters do not help, break down or take no part, and how far the
+//! reference can be trusted.
 
 use super::answer::gains;
-use super::contest::{Comparison, geometric_mean, unique};
+use super::contest::{Comparison, Contest, DECIDES, geometric_mean, unique};
 use super::phrase::{self, count, list};
-use crate::experiment::results::{MethodInfo, RefusalInfo, Results};
+use crate::experiment::results::{RefusalInfo, Results};
 
-/// One sentence for each method that appears both as printed and normalised.
-pub fn printed_forms(comparison: &Comparison) -> Vec<String> {
-    let methods = &comparison.results.methods;
-    let printed = methods.iter().filter(|m| !m.normalised);
-    let pairs = printed.flat_map(|p| {
-        methods.iter().filter(|m| m.normalised && m.name == p.name).map(move |m| (p, m))
-    });
-    let sentence = |(printed, normalised): (&MethodInfo, &MethodInfo)| {
-        let ratios = gains(comparison, &normalised.label, &printed.label);
-        let mean = geometric_mean(ratios.iter().copied())?;
-        Some(format!(
-            "{}, the form as printed, without a normalisation, has {} times the RMSE of {}, its normalised form \
-             (geometric mean over {}).",
-            printed.label,
-            phrase::times(mean),
-            normalised.label,
-            count(ratios.len(), "scene"),
-        ))
-    };
-    pairs.filter_map(sentence).collect()
+/// An error this many times brute force's is a method breaking down, not a bad picture.
+const BROKEN: f64 = 100.0;
+/// Most scenes named in a sentence.
+const NAMED: usize = 6;
+
+/// Scenes by name, or their number if they are many.
+fn named(contests: &[&Contest]) -> String {
+    let names: Vec<_> = contests.iter().map(|c| c.name()).collect();
+    if unique(names.iter()).len() > NAMED { String::new() } else { format!(": {}", list(&names)) }
 }
 
-/// One sentence for each method and reason.
+/// Where brute force itself was the closest, and what the lookup alone does there.
+pub fn unhelped(comparison: &Comparison) -> Vec<String> {
+    let Some(brute) = comparison.brute_force() else { return Vec::new() };
+    let closest = |c: &&Contest| c.winners().any(|s| s.method.label == brute.label);
+    let scenes: Vec<_> = comparison.contests().filter(closest).collect();
+    let all = count(comparison.contests().count(), "scene");
+    let first = match scenes.len() {
+        0 => format!("In each of {all} some filter was closer than {}.", brute.label),
+        n => {
+            format!("In {n} of {all} no filter was closer than {}{}.", brute.label, named(&scenes))
+        }
+    };
+    std::iter::once(first).chain(lookup(comparison, &brute.label)).collect()
+}
+
+/// What averaging normals alone does where a pixel covers about a texel.
+fn lookup(comparison: &Comparison, brute: &str) -> Option<String> {
+    const FINE: f64 = 1.5;
+    let averaged = comparison.results.methods.iter().find(|m| m.name == "averaged")?;
+    let fine = comparison.contests().filter(|c| c.scene.key.texels_per_pixel <= FINE);
+    let pair = |c: &Contest| Some((c.standing(&averaged.label)?.error, c.standing(brute)?.error));
+    let ratios: Vec<f64> = fine.filter_map(pair).map(|(own, brute)| own / brute).collect();
+    let mean = geometric_mean(ratios.iter().copied()).filter(|mean| *mean > 1.0)?;
+    Some(format!(
+        "Where a pixel covers about a texel, {}, the pyramid’s lookup without a spread of normals, has {} times the \
+         RMSE of {brute} (geometric mean over {}): there the lookup itself blurs away what a pixel still shows.",
+        averaged.label,
+        phrase::times(mean),
+        count(ratios.len(), "scene"),
+    ))
+}
+
+/// Methods whose images are not finite, or far beyond anything that brute force shows.
+pub fn breakdowns(comparison: &Comparison) -> Vec<String> {
+    let brute = comparison.brute_force().map(|b| b.label.as_str());
+    let sentence = |label: &str| {
+        let lost: Vec<_> =
+            comparison.contests().filter(|c| not_finite(comparison, c, label)).collect();
+        let wild = |c: &&Contest| {
+            let limit = brute.and_then(|b| c.standing(b)).map(|s| BROKEN * s.error);
+            c.standing(label).zip(limit).is_some_and(|(s, limit)| s.error > limit)
+        };
+        let wild: Vec<_> = comparison.contests().filter(wild).collect();
+        let lost = (!lost.is_empty()).then(|| {
+            format!(
+                "{label} breaks down in {}{}; pixels are not finite there, and it has no error.",
+                count(lost.len(), "scene"),
+                named(&lost)
+            )
+        });
+        let wild = (!wild.is_empty()).then(|| {
+            format!(
+                "{label} breaks down in {}{}; its RMSE is more than {BROKEN} times that of {} there, and spoils its means.",
+                count(wild.len(), "scene"),
+                named(&wild),
+                brute.unwrap_or_default(),
+            )
+        });
+        lost.into_iter().chain(wild)
+    };
+    comparison.results.methods.iter().flat_map(|m| sentence(&m.label)).collect()
+}
+
+/// Whether a method was rendered in a scene but has no finite error.
+pub fn not_finite(comparison: &Comparison, contest: &Contest, label: &str) -> bool {
+    let of_method = |t: &&crate::experiment::results::TrialResult| t.method == label;
+    let mut trials = contest.scene.trials.iter().filter(of_method);
+    trials.any(|t| t.spp == comparison.spp && !t.score(DECIDES).is_some_and(f64::is_finite))
+}
+
+/// How much closer a normalised form is than its printed one.
+pub fn printed_over_normalised(
+    comparison: &Comparison,
+    printed: &str,
+    normalised: &str,
+) -> Option<f64> {
+    geometric_mean(gains(comparison, normalised, printed).into_iter())
+}
+
+/// One sentence for each method that took no part in some scenes.
 pub fn refusals(results: &Results) -> Vec<String> {
-    let all = results.scenes.iter().flat_map(|s| s.refusals.iter().map(move |r| (s, r)));
-    let all: Vec<_> = all.collect();
-    let distinct = unique(all.iter().map(|(_, r)| (&r.method, &r.reason)));
-    let sentence = |(method, reason): (&String, &String)| {
-        let same = |r: &RefusalInfo| (&r.method, &r.reason) == (method, reason);
-        let scenes = all.iter().filter(|(_, r)| same(r)).map(|(s, _)| s);
-        let lobes = unique(scenes.clone().map(|s| s.key.lobe.as_str()));
+    let all: Vec<_> = results
+        .scenes
+        .iter()
+        .flat_map(|s| s.refusals.iter().map(move |r| (s.key.lobe.as_str(), r)))
+        .collect();
+    let sentence = |method: &str| {
+        let of: Vec<_> = all.iter().filter(|(_, r)| r.method == method).collect();
+        let lobes = unique(of.iter().map(|(lobe, _)| *lobe));
+        let either = list(&lobes).replace(" and ", " or ");
+        // Reasons that differ in the lobe's name alone are one reason.
+        let reason = |(lobe, r): &&(&str, &RefusalInfo)| {
+            r.reason.trim_end_matches('.').replace(&format!("a {lobe} "), &format!("a {either} "))
+        };
+        let reasons = unique(of.iter().map(reason));
         format!(
-            "{method} took no part in {} with a {} base lobe: {}.",
-            count(scenes.count(), "scene"),
-            list(&lobes),
-            reason.trim_end_matches('.'),
+            "{method} takes no part in {} of {} (those with a {either} base lobe): {}.",
+            of.len(),
+            count(results.scenes.len(), "scene"),
+            reasons.join("; "),
         )
     };
-    distinct.into_iter().map(sentence).collect()
+    unique(all.iter().map(|(_, r)| r.method.as_str())).into_iter().map(sentence).collect()
 }
 
-/// How far the reference itself can be trusted.
-pub fn certainty(comparison: &Comparison) -> Option<String> {
+/// How far the reference itself can be trusted, and which scenes it leaves undecided.
+pub fn certainty(comparison: &Comparison) -> String {
     let references = comparison.contests().map(|c| &c.scene.reference);
     let worst = references.clone().map(|r| r.rmse).fold(0.0, f64::max);
     let spp = unique(references.map(|r| r.spp.to_string()));
-    let ties = comparison.contests().filter(|c| c.winners().count() > 1).count();
-    Some(format!(
+    let ties: Vec<_> = comparison.contests().filter(|c| c.winners().count() > 1).collect();
+    let text = format!(
         "The references used {} samples a pixel; their own RMSE is estimated at {} or less. A lead under \
-         twice a reference’s own error counts as a tie: {} of {} ended in one.",
+         twice the own error of a scene’s reference counts as a tie: {} of {} ended in one",
         list(&spp),
         phrase::number(worst),
-        ties,
+        ties.len(),
         count(comparison.contests().count(), "scene"),
-    ))
+    );
+    match ties.len() {
+        1..=NAMED => {
+            let told: Vec<_> = ties.iter().map(|c| tie(c)).collect();
+            format!("{text}: {}.", told.join("; "))
+        }
+        _ => text + ".",
+    }
+}
+
+/// `gaussian at 64 texels a pixel, where fournier and olano-north lie within 0.0151 and …`
+fn tie(contest: &Contest) -> String {
+    let names: Vec<_> = contest.winners().map(|s| s.method.label.as_str()).collect();
+    let errors = || contest.winners().map(|s| s.error);
+    let apart = errors().fold(0.0, f64::max) - errors().fold(f64::INFINITY, f64::min);
+    format!(
+        "{}, where {} lie within {} and the reference’s own RMSE is {}",
+        contest.name(),
+        list(&names),
+        phrase::number(apart),
+        phrase::number(contest.scene.reference.rmse),
+    )
 }
 
 #[cfg(test)]
@@ -68,16 +165,43 @@ mod tests {
     use crate::report::fixture;
 
     #[test]
-    fn a_refusal_gives_its_reason_once() {
-        let text = refusals(&fixture::results()).join("\n");
-        assert_eq!(text.matches("kautz took no part in 4 scenes").count(), 1, "{text}");
+    fn a_refusal_is_one_sentence_a_method() {
+        let mut results = fixture::results();
+        let text = refusals(&results).join("\n");
+        assert!(text.starts_with("kautz takes no part in 4 of 12 scenes (those with a"), "{text}");
+        for (i, scene) in results.scenes.iter_mut().enumerate() {
+            let lobe = ["ggx", "beckmann"][i % 2];
+            scene.key.lobe = lobe.into();
+            let reason = format!("a {lobe} lobe is none");
+            scene.refusals = vec![RefusalInfo { method: "kautz".into(), reason }];
+        }
+        let text = refusals(&results).join("\n");
+        assert!(
+            text.ends_with(
+                "(those with a ggx or beckmann base lobe): a ggx or beckmann lobe is none."
+            ),
+            "{text}"
+        );
     }
 
     #[test]
-    fn a_printed_form_is_set_against_the_normalised_one() {
-        let results = fixture::results();
-        let text = printed_forms(&Comparison::of(&results)).join("\n");
-        assert!(text.contains("schilling-printed, the form as printed, without"), "{text}");
-        assert!(text.contains("times the RMSE of schilling, its normalised form"), "{text}");
+    fn a_breakdown_is_told_with_its_scene() {
+        let mut results = fixture::results();
+        let trials = &mut results.scenes[0].trials;
+        let of = |label: &str| trials.iter().position(|t| t.method == label).unwrap();
+        let (lost, wild) = (of("averaged"), of("fournier"));
+        trials[lost].scores.clear();
+        trials[wild].scores[0].value = 1e17;
+        let text = breakdowns(&Comparison::of(&results)).join("\n");
+        assert!(
+            text.contains(
+                "averaged breaks down in 1 scene: bricks at 1 texel a pixel; pixels are not"
+            ),
+            "{text}"
+        );
+        assert!(
+            text.contains("fournier breaks down in 1 scene: bricks at 1 texel a pixel; its RMSE"),
+            "{text}"
+        );
     }
 }

@@ -4,6 +4,7 @@ use super::axis::{Axis, Tick};
 use super::canvas::{Anchor, Canvas, Point, Type};
 use super::colour::{BLACK, GREY, PALE, SHADE, Style};
 use super::mark::mark;
+use super::phrase;
 
 /// Ordinary text.
 pub const TEXT: Type = Type { size: 12.0, ink: BLACK, bold: false, anchor: Anchor::Start };
@@ -26,11 +27,12 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// The point of a pair of values.
+    /// The point of a pair of values; one beyond the axis stands at its edge.
     pub fn at(&self, x: f64, y: f64) -> Point {
         let [left, top] = self.corner;
         let [width, height] = self.size;
-        [left + width * self.x.place(x), top + height * (1.0 - self.y.place(y))]
+        let up = self.y.place(y).clamp(0.0, 1.0);
+        [left + width * self.x.place(x), top + height * (1.0 - up)]
     }
 
     /// Its right edge.
@@ -83,20 +85,25 @@ impl Panel {
     }
 
     /// Draws a curve with its markers. One that was measured at a single count is carried across,
-    /// dotted.
+    /// dashed, if `carried` says so. Errors above the axis stand at its upper edge with their value.
     pub fn curve(&self, canvas: &mut Canvas, curve: &[(f64, f64)], style: Style, carried: bool) {
-        let points: Vec<Point> = curve
-            .iter()
-            .filter(|(x, y)| *x > 0.0 && *y > 0.0)
-            .map(|&(x, y)| self.at(x, y))
-            .collect();
+        let positive = curve.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
+        let points: Vec<Point> = positive.clone().map(|&(x, y)| self.at(x, y)).collect();
         if let ([[_, y]], true) = (points.as_slice(), carried) {
             let line = [points[0], [self.right(), *y]];
             canvas.line(&line, style.ink, 1.1, Some([4.0, 3.0]));
         }
         let dash = style.hollow.then_some([6.0, 3.0]);
-        canvas.line(&points, style.ink, 1.8, dash);
+        canvas.line(&points, style.ink, if style.heavy { 2.8 } else { 1.6 }, dash);
         points.iter().for_each(|point| mark(canvas, *point, style));
+        for ((_, error), [x, y]) in positive.zip(&points).filter(|((_, y), _)| *y > self.y.high) {
+            let at = [x + 7.0, y + HALF_CAPITAL * SMALL.size];
+            canvas.text(
+                at,
+                &format!("↑ {}", phrase::number(*error)),
+                Type { ink: style.ink, ..SMALL },
+            );
+        }
     }
 
     /// Names curves at the right edge, where they end, pushed apart so that none overlap.

@@ -2,7 +2,7 @@
 
 use crate::experiment::results::MethodInfo;
 
-use super::contest::unique;
+use super::contest::{BRUTE_FORCE, family, unique};
 
 /// A colour with its opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,8 +48,8 @@ const OKABE_ITO: [[u8; 3]; 7] = [
     [0xa8, 0x98, 0x00],
 ];
 
-/// How a method is drawn: the same colour for all forms of one method, another marker for each form,
-/// hollow if the form is printed without a normalisation. The unfiltered method is dark grey.
+/// How a method is drawn: one colour and marker for all forms of one method, hollow if the form is
+/// printed without a normalisation. The unfiltered method is black and heavy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// Colour.
@@ -58,17 +58,26 @@ pub struct Style {
     pub marker: usize,
     /// Whether the marker is an outline.
     pub hollow: bool,
+    /// Whether it is the yardstick, brute force: drawn heavier than the rest.
+    pub heavy: bool,
 }
 
 /// The styles of all methods, in their order.
 pub fn styles(methods: &[MethodInfo]) -> Vec<Style> {
-    let filters = unique(methods.iter().map(|m| &m.name).filter(|n| *n != "unfiltered"));
-    let style = |(marker, method): (usize, &MethodInfo)| {
-        let place = filters.iter().position(|name| **name == method.name);
-        let ink = place.map_or(GREY, |i| Ink::new(OKABE_ITO[i % OKABE_ITO.len()]));
-        Style { ink, marker, hollow: !method.normalised }
-    };
-    methods.iter().enumerate().map(style).collect()
+    let filters = unique(methods.iter().map(family).filter(|name| *name != BRUTE_FORCE));
+    let mut drawn: Vec<Style> = Vec::with_capacity(methods.len());
+    for method in methods {
+        let place = filters.iter().position(|name| *name == family(method));
+        let ink = place.map_or(BLACK, |i| Ink::new(OKABE_ITO[i % OKABE_ITO.len()]));
+        let (hollow, heavy) = (!method.normalised, place.is_none());
+        let mut style = Style { ink, marker: place.map_or(0, |i| i + 1), hollow, heavy };
+        // Two forms of one method that are alike in all else differ in their markers.
+        while drawn.contains(&style) {
+            style.marker += 1;
+        }
+        drawn.push(style);
+    }
+    drawn
 }
 
 /// The anchors of viridis (van der Walt and Smith 2015), from 0 to 1.
@@ -96,12 +105,17 @@ const SIGNED: [[u8; 3]; 5] = [
 
 /// A magnitude from 0 to 1 as a colour.
 pub fn magnitude(value: f64) -> [u8; 3] {
-    between(&VIRIDIS, value)
+    between(&VIRIDIS, step(value, 128.0))
 }
 
-/// A signed value from −1 to 1 as a colour; 0 is white.
+/// A signed value from −1 to 1 as a colour; 0 is white, what is not a number black.
 pub fn signed(value: f64) -> [u8; 3] {
-    between(&SIGNED, 0.5 + 0.5 * value)
+    if value.is_nan() { [0; 3] } else { between(&SIGNED, step(0.5 + 0.5 * value, 254.0)) }
+}
+
+/// The nearest of `steps` + 1 values: scales of few colours make small files.
+fn step(value: f64, steps: f64) -> f64 {
+    (value.clamp(0.0, 1.0) * steps).round() / steps
 }
 
 fn between(anchors: &[[u8; 3]], value: f64) -> [u8; 3] {
@@ -131,7 +145,7 @@ mod tests {
         let methods = fixture::results().methods;
         let styles = styles(&methods);
         assert_eq!(styles[3].ink, styles[4].ink);
-        assert_ne!((styles[3].marker, styles[3].hollow), (styles[4].marker, styles[4].hollow));
+        assert_ne!(styles[3].hollow, styles[4].hollow);
         assert_ne!(styles[2].ink, styles[3].ink);
     }
 }

@@ -9,7 +9,7 @@ use crate::metric::{Equivalent, equivalent_samples};
 /// The metric that decides: root mean square error against the reference.
 pub const DECIDES: &str = "rmse";
 /// The registry's name of the method that is brute force when given many samples.
-const BRUTE_FORCE: &str = "unfiltered";
+pub const BRUTE_FORCE: &str = "unfiltered";
 
 /// One method in one scene, at the fewest samples a pixel that the experiment used.
 pub struct Standing<'a> {
@@ -27,6 +27,8 @@ pub struct Standing<'a> {
 pub struct Contest<'a> {
     /// The scene.
     pub scene: &'a SceneResult,
+    /// The mean radiance of its reference.
+    pub mean: f64,
     /// Who was measured, in the order of the spec.
     pub standings: Vec<Standing<'a>>,
 }
@@ -45,7 +47,7 @@ impl<'a> Contest<'a> {
             let gap = standing.error - least;
             standing.best = gap == 0.0 || gap < 2.0 * scene.reference.rmse;
         }
-        Self { scene, standings }
+        Self { scene, mean: mean_radiance(scene), standings }
     }
 
     /// The methods that came closest: one, or all that tie.
@@ -56,6 +58,17 @@ impl<'a> Contest<'a> {
     /// The least error among the methods that did not come closest, and whose it is.
     pub fn runner_up(&self) -> Option<&Standing<'a>> {
         self.standings.iter().filter(|s| !s.best).min_by(|a, b| a.error.total_cmp(&b.error))
+    }
+
+    /// An error as a part of the reference's mean radiance.
+    pub fn relative(&self, error: f64) -> Option<f64> {
+        (self.mean > 0.0).then(|| error / self.mean)
+    }
+
+    /// `twill at 4 texels a pixel`.
+    pub fn name(&self) -> String {
+        let key = &self.scene.key;
+        format!("{} at {}", key.texture, super::scale::texels(key.texels_per_pixel))
     }
 
     /// The standing of a method.
@@ -138,6 +151,17 @@ pub fn setting_name(key: &SceneKey) -> String {
         phrase::scale(key.parameter),
         key.shading
     )
+}
+
+/// The name that all forms of one method share: a printed form is named after the normalised one.
+pub fn family(method: &MethodInfo) -> &str {
+    method.name.strip_suffix("-printed").unwrap_or(&method.name)
+}
+
+/// The mean radiance of a scene's reference, summed in the order of its pixels.
+pub fn mean_radiance(scene: &SceneResult) -> f64 {
+    let pixels = scene.reference.film.pixels();
+    pixels.iter().map(|p| f64::from(*p)).sum::<f64>() / pixels.len() as f64
 }
 
 /// (samples a pixel, RMSE) of the brute-force method, in rising order.

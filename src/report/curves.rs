@@ -1,12 +1,12 @@
 //! Plots of error: against samples a pixel, over all scenes and scene by scene, and against scale.
 
 use super::axis::Axis;
-use super::canvas::{Canvas, Type};
+use super::canvas::{Anchor, Canvas, Type};
 use super::chart::{Panel, SMALL, TEXT};
 use super::colour::{BLACK, GREY, Style, styles};
 use super::contest::{Comparison, Contest, Setting, curve, geometric_mean, unique};
 use super::font;
-use super::grid::{Cell, Curve, Grid, MIDDLE};
+use super::grid::{Cell, Curve, Grid, MIDDLE, draw_curves, error_axis};
 use super::scale::Scale;
 use super::tables::label;
 use crate::experiment::results::{MethodInfo, SceneResult};
@@ -78,19 +78,19 @@ fn draw_overall(curves: &[Curve], floor: Option<f64>) -> Canvas {
     let names: Vec<_> = curves.iter().map(|c| label(c.method)).collect();
     let widest = names.iter().map(|n| font::width(n, TEXT.size, false)).fold(0.0, f32::max);
     let mut canvas = Canvas::new(70.0 + 560.0 + 40.0 + widest.min(260.0), 430.0);
-    let errors = curves.iter().flat_map(|c| &c.points).map(|p| p.1).chain(floor);
+    const FLOOR_ROOM: f64 = 1.5;
     let counts = curves.iter().flat_map(|c| &c.points).map(|p| p.0);
     let panel = Panel {
         corner: [64.0, 16.0],
         size: [560.0, 360.0],
         x: Axis::at_values(counts.collect()),
-        y: Axis::decades(errors),
+        y: error_axis(curves.iter(), floor.map(|f| f / FLOOR_ROOM).into_iter()),
     };
     let floor_value = floor.unwrap_or(0.0);
     panel.floor(&mut canvas, floor_value);
     panel.draw(&mut canvas, (true, true));
     slope_guide(&mut canvas, &panel, curves);
-    curves.iter().for_each(|c| panel.curve(&mut canvas, &c.points, c.style, true));
+    draw_curves(&mut canvas, &panel, curves);
     let ends = curves.iter().zip(names).filter_map(|(c, name)| {
         let error = c.points.last()?.1;
         Some((error, font::fitted(&name, TEXT.size, false, 260.0), c.style))
@@ -99,26 +99,21 @@ fn draw_overall(curves: &[Curve], floor: Option<f64>) -> Canvas {
     if floor_value > 0.0 {
         let [_, y] = panel.at(1.0, floor_value);
         let at = [panel.corner[0] + 8.0, (y + 14.0).min(panel.bottom() - 5.0)];
-        canvas.text(at, "below the reference’s own error", SMALL);
+        canvas.text(at, "the reference’s own error", SMALL);
     }
     axis_titles(&mut canvas, &panel, "samples a pixel");
     canvas
 }
 
-/// A line of slope −½ above the brute-force curve: how independent samples converge.
+/// A line of slope −½ from the start of the brute-force curve: how independent samples converge.
 fn slope_guide(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
-    let Some(longest) = curves.iter().max_by_key(|c| c.points.len()) else { return };
-    let [first, .., last] = longest.points[..] else { return };
-    let above = 1.6;
-    let end = (last.0, above * first.1 * (first.0 / last.0).sqrt());
-    let start = (first.0 * 2.0, above * first.1 / f64::sqrt(2.0));
-    if start.0 >= end.0 {
-        return;
-    }
-    let line = [panel.at(start.0, start.1), panel.at(end.0, end.1)];
-    canvas.line(&line, GREY, 1.0, Some([1.5, 2.5]));
-    let middle = [0.5 * (line[0][0] + line[1][0]) + 6.0, 0.5 * (line[0][1] + line[1][1]) - 6.0];
-    canvas.text(middle, "slope −½", SMALL);
+    let Some(brute) = curves.iter().find(|c| c.style.heavy) else { return };
+    let [first, .., last] = brute.points[..] else { return };
+    let end = (last.0, first.1 * (first.0 / last.0).sqrt());
+    let line = [panel.at(first.0, first.1), panel.at(end.0, end.1)];
+    canvas.line(&line, GREY, 1.2, Some([1.5, 2.5]));
+    let at = [line[1][0] - 4.0, line[1][1] - 10.0];
+    canvas.text(at, "independent samples, slope −½", Type { anchor: Anchor::End, ..SMALL });
 }
 
 fn axis_titles(canvas: &mut Canvas, panel: &Panel, across: &str) {
@@ -175,7 +170,8 @@ pub fn by_scale(comparison: &Comparison, setting: &Setting) -> Option<Canvas> {
         Cell { title: texture.to_owned(), curves, floor: floor.unwrap_or(0.0) }
     };
     let panels: Vec<_> = setting.textures().into_iter().map(cell).collect();
-    let across = panels.len().min(4);
+    // Rows as even as they can be, of four at most.
+    let across = panels.len().div_ceil(panels.len().div_ceil(4).max(1));
     Grid { panels, across, x_title: "texels a pixel" }.draw(&names(comparison))
 }
 

@@ -5,7 +5,7 @@ use super::chart::{SMALL, TEXT};
 use super::colour::{BLACK, GREY, Ink, WHITE, magnitude};
 use super::font;
 use super::phrase;
-use crate::experiment::results::{Peak, Picture, Probe};
+use crate::experiment::results::{MethodInfo, Peak, Picture, Probe};
 use crate::geometry::HemisphereGrid;
 
 /// Radius of a disc, units.
@@ -19,8 +19,9 @@ const ACROSS: usize = 4;
 /// Room for the colour bar.
 const BAR: f32 = 86.0;
 
-/// The true distribution of a probe beside each method's, on one colour scale.
-pub fn draw(probe: &Probe) -> Canvas {
+/// The true distribution of a probe beside each method's, in the order of `methods`, on one colour
+/// scale.
+pub fn draw(probe: &Probe, methods: &[MethodInfo]) -> Canvas {
     let most = probe.truth.iter().copied().filter(|v| v.is_finite()).fold(0.0, f32::max);
     let scale = if most > 0.0 { f64::from(most) } else { 1.0 };
     let discs = probe.methods.len() + 1;
@@ -29,9 +30,12 @@ pub fn draw(probe: &Probe) -> Canvas {
     let (width, height) = (across as f32 * CELL[0] + BAR, rows as f32 * CELL[1]);
     let mut canvas = Canvas::new(width, height);
     disc(&mut canvas, place(0, across), "true distribution", "", &probe.truth, scale);
-    for (i, method) in probe.methods.iter().enumerate() {
+    let place_of = |label: &str| methods.iter().position(|m| m.label == label);
+    let mut probed: Vec<_> = probe.methods.iter().collect();
+    probed.sort_by_key(|found| place_of(&found.method).unwrap_or(usize::MAX));
+    for (i, method) in probed.into_iter().enumerate() {
         let corner = place(i + 1, across);
-        let remark = format!("L1 distance {}", phrase::number(method.l1));
+        let remark = format!("distance {}", phrase::number(method.l1));
         disc(&mut canvas, corner, &method.method, &remark, &method.density, scale);
         method.peaks.iter().for_each(|peak| ring(&mut canvas, corner, peak));
     }
@@ -147,6 +151,6 @@ mod tests {
     #[test]
     fn an_empty_distribution_is_drawn() {
         let probe = Probe { pixel: [0, 0], texels_across: 0.0, truth: vec![], methods: vec![] };
-        assert!(draw(&probe).width() > 0);
+        assert!(draw(&probe, &[]).width() > 0);
     }
 }

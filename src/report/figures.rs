@@ -4,14 +4,15 @@ use base64::Engine;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::canvas::{Canvas, png_of};
-use super::contest::{Comparison, Setting, setting_name};
+use super::canvas::Canvas;
+use super::contest::{Comparison, Setting, setting_name, unique};
 use super::phrase::{self, count};
+use super::png;
 use super::scale::texels;
 use super::sheet::{self, Frame, Frames};
 
 use super::{curves, disc};
-use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo};
+use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo, TrialResult};
 
 /// A picture with what it shows.
 #[derive(Serialize)]
@@ -22,16 +23,23 @@ pub struct Figure {
     caption: String,
     /// How wide it is shown, CSS pixels.
     width: u32,
-    /// The picture as a data URI.
-    uri: String,
+    /// The picture as a data URI, if the page holds it.
+    uri: Option<String>,
     #[serde(skip)]
     png: Vec<u8>,
 }
 
 impl Figure {
-    fn new(file: String, caption: String, drawing: Canvas) -> Self {
-        let png = drawing.png();
-        Self { file, caption, width: drawing.width(), uri: data_uri(&png), png }
+    /// A drawing: a plot or a distribution.
+    fn drawing(file: String, caption: String, drawing: &Canvas) -> Self {
+        let png = png::drawing(&drawing.dots());
+        Self { file, caption, width: drawing.width(), uri: Some(data_uri(&png)), png }
+    }
+
+    /// A contact sheet. The HTML report shows its images one by one, so it needs no URI.
+    fn sheet(file: String, caption: String, drawing: &Canvas) -> Self {
+        let png = png::exact(&drawing.dots());
+        Self { file, caption, width: drawing.width(), uri: None, png }
     }
 }
 
@@ -67,6 +75,21 @@ struct SceneFigures {
     sheet: Figure,
     frames: Vec<FrameImages>,
     probes: Vec<Figure>,
+    films: Vec<Films>,
+}
+
+/// The images of a scene as the run keeps them: linear radiance, EXR.
+#[derive(Serialize)]
+struct Films {
+    label: String,
+    files: Vec<FilmFile>,
+}
+
+/// An EXR file that the runner wrote.
+#[derive(Serialize)]
+struct FilmFile {
+    spp: u32,
+    path: String,
 }
 
 /// One image for flipping.
@@ -83,12 +106,16 @@ impl Figures {
     pub fn of(results: &Results) -> Self {
         let comparison = Comparison::of(results);
         let settings = comparison.settings.iter().enumerate();
-        let picture = |t: &TextureInfo| t.picture.as_ref().map(|p| data_uri(&png_of(p)));
+        let picture = |t: &TextureInfo| t.picture.as_ref().map(|p| data_uri(&png::exact(p)));
         Self {
             overall: overall(&comparison),
             settings: settings.map(|(i, s)| setting_figures(&comparison, s, i + 1)).collect(),
             // Scene by scene in parallel, kept in order.
-            scenes: results.scenes.par_iter().map(|s| scene_figures(s, comparison.spp)).collect(),
+            scenes: results
+                .scenes
+                .par_iter()
+                .map(|scene| scene_figures(results, scene, comparison.spp))
+                .collect(),
             textures: results.textures.iter().map(picture).collect(),
         }
     }
@@ -111,34 +138,37 @@ fn overall(comparison: &Comparison) -> Option<Figure> {
     };
     let slope = plot.slope.map_or_else(String::new, |slope| {
         format!(
-            " From its first point to its last unfiltered goes as N to the power {}; independent samples would \
+            " Brute force falls as N to the power {} from its first point to its last; independent samples would \
              give −0.5.",
             format!("{slope:.2}").replace('-', "−")
         )
     });
     let caption = format!(
-        "RMSE against samples a pixel, the geometric mean over the {}{which}. A dashed line carries an error \
-         measured at one number of samples across, to where brute force meets it.{slope}",
+        "RMSE against samples a pixel, the geometric mean over the {}{which}. Heavy: brute force. A thin dashed line \
+         carries an error measured at one number of samples across, to where brute force meets it.{slope}",
         count(plot.scenes, "scene"),
     );
-    Some(Figure::new("plots/samples.png".into(), caption, plot.drawing))
+    Some(Figure::drawing("plots/samples.png".into(), caption, &plot.drawing))
 }
 
 fn setting_figures(comparison: &Comparison, setting: &Setting, number: usize) -> SettingFigures {
     let spp = count(comparison.spp as usize, "sample");
     let by_scale = curves::by_scale(comparison, setting).map(|drawing| {
-        let caption = format!("RMSE against scale at {spp} a pixel, texture by texture.");
-        Figure::new(format!("plots/scale-{number}.png"), caption, drawing)
+        let caption = format!(
+            "RMSE against texels a pixel at {spp} a pixel, texture by texture. Shaded: under the reference’s own error."
+        );
+        Figure::drawing(format!("plots/scale-{number}.png"), caption, &drawing)
     });
     let by_scene = curves::by_scene(comparison, setting).map(|drawing| {
-        let caption = "RMSE against samples a pixel, scene by scene.".to_owned();
-        Figure::new(format!("plots/samples-{number}.png"), caption, drawing)
+        let caption = "RMSE against samples a pixel, scene by scene. Shaded: under the reference’s own error."
+            .to_owned();
+        Figure::drawing(format!("plots/samples-{number}.png"), caption, &drawing)
     });
     let figures = [by_scale, by_scene].into_iter().flatten().collect();
     SettingFigures { name: setting.name.clone(), figures }
 }
 
-fn scene_figures(scene: &SceneResult, spp: u32) -> SceneFigures {
+fn scene_figures(results: &Results, scene: &SceneResult, spp: u32) -> SceneFigures {
     let frames = sheet::frames(scene, spp);
     let remark = format!(
         "White is radiance {}. Errors are method − reference: blue too dark, orange too bright, in full colour \
@@ -152,7 +182,8 @@ fn scene_figures(scene: &SceneResult, spp: u32) -> SceneFigures {
         setting: setting_name(&scene.key),
         sheet: sheet_figure(scene, &frames, spp),
         frames: frames.frames.iter().map(frame_images).collect(),
-        probes: probes.map(|(i, probe)| probe_figure(scene, probe, i + 1)).collect(),
+        probes: probes.map(|(i, probe)| probe_figure(results, scene, probe, i + 1)).collect(),
+        films: films(scene),
         remark,
     }
 }
@@ -160,24 +191,42 @@ fn scene_figures(scene: &SceneResult, spp: u32) -> SceneFigures {
 fn sheet_figure(scene: &SceneResult, frames: &Frames, spp: u32) -> Figure {
     let caption =
         format!("The reference and each method at {} a pixel.", count(spp as usize, "sample"));
-    Figure::new(format!("images/{}.png", scene.slug), caption, sheet::sheet(frames))
+    Figure::sheet(format!("images/{}.png", scene.slug), caption, &sheet::sheet(frames))
+}
+
+/// The runner's files: `images/SLUG/reference.exr` and `images/SLUG/LABEL-Nspp.exr`.
+fn films(scene: &SceneResult) -> Vec<Films> {
+    let path = |name: &str| format!("images/{}/{name}.exr", scene.slug);
+    let reference = FilmFile { spp: scene.reference.spp, path: path("reference") };
+    let trial = |t: &TrialResult| FilmFile {
+        spp: t.spp,
+        path: path(&format!("{}-{}spp", t.method, t.spp)),
+    };
+    let of_method = |label: &str| Films {
+        label: label.to_owned(),
+        files: scene.trials.iter().filter(|t| t.method == label).map(trial).collect(),
+    };
+    let labels = unique(scene.trials.iter().map(|t| t.method.as_str()));
+    let reference = Films { label: "reference".into(), files: vec![reference] };
+    std::iter::once(reference).chain(labels.into_iter().map(of_method)).collect()
 }
 
 fn frame_images(frame: &Frame) -> FrameImages {
     FrameImages {
         label: frame.label.clone(),
         remark: frame.remark.clone(),
-        image: data_uri(&frame.png()),
-        error: frame.error.as_ref().map(|picture| data_uri(&png_of(picture))),
+        image: data_uri(&png::exact(&frame.image)),
+        error: frame.error.as_ref().map(|picture| data_uri(&png::exact(picture))),
     }
 }
 
-fn probe_figure(scene: &SceneResult, probe: &Probe, number: usize) -> Figure {
+fn probe_figure(results: &Results, scene: &SceneResult, probe: &Probe, number: usize) -> Figure {
     let [x, y] = probe.pixel;
     let caption = format!(
-        "Distributions of normals under pixel ({x}, {y}), {} texels across: the hemisphere seen from above, \
-         x to the right, y up; colour is the square root of density. Rings mark lobes.",
+        "Distributions of normals under pixel ({x}, {y}) of {}: a footprint {} texels across.",
+        scene.key.texture,
         phrase::scale(probe.texels_across),
     );
-    Figure::new(format!("plots/{}-normals-{number}.png", scene.slug), caption, disc::draw(probe))
+    let file = format!("plots/{}-normals-{number}.png", scene.slug);
+    Figure::drawing(file, caption, &disc::draw(probe, &results.methods))
 }

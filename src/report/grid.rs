@@ -54,7 +54,9 @@ impl Grid<'_> {
         let points = || self.panels.iter().flat_map(|p| &p.curves).flat_map(|c| &c.points);
         points().next()?;
         let x = Axis::at_values(points().map(|p| p.0).collect());
-        let y = Axis::decades(points().map(|p| p.1).chain(self.panels.iter().map(|p| p.floor)));
+        let curves = self.panels.iter().flat_map(|p| &p.curves);
+        let floors = self.panels.iter().map(|p| p.floor);
+        let y = error_axis(curves, floors);
         let rows = self.panels.len().div_ceil(self.across);
         let inner = self.across as f32 * (CELL[0] + GAP[0]) - GAP[0];
         let width = MARGIN[0] + inner + MARGIN[1];
@@ -79,13 +81,33 @@ impl Grid<'_> {
     }
 }
 
+/// An axis for errors. What exceeds brute force beyond reason (a method that broke down) does not
+/// stretch it.
+pub fn error_axis<'a>(
+    curves: impl Iterator<Item = &'a Curve<'a>> + Clone,
+    floors: impl Iterator<Item = f64>,
+) -> Axis {
+    const REASON: f64 = 100.0;
+    let errors = |c: &'a Curve<'a>| c.points.iter().map(|p| p.1);
+    let brute = curves.clone().filter(|c| c.style.heavy).flat_map(errors).reduce(f64::max);
+    let most = brute.filter(|b| *b > 0.0).map_or(f64::INFINITY, |b| REASON * b);
+    Axis::decades(curves.flat_map(errors).filter(|e| *e <= most).chain(floors))
+}
+
+/// Draws curves, the yardstick last.
+pub fn draw_curves(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
+    for heavy in [false, true] {
+        for curve in curves.iter().filter(|c| c.style.heavy == heavy) {
+            panel.curve(canvas, &curve.points, curve.style, !heavy);
+        }
+    }
+}
+
 impl Cell<'_> {
     fn draw(&self, canvas: &mut Canvas, panel: &Panel, labels: (bool, bool)) {
         panel.floor(canvas, self.floor);
         panel.draw(canvas, labels);
-        for curve in &self.curves {
-            panel.curve(canvas, &curve.points, curve.style, true);
-        }
+        draw_curves(canvas, panel, &self.curves);
         let title = font::fitted(&self.title, TITLE.size, true, panel.size[0]);
         canvas.text([panel.corner[0], panel.corner[1] - 8.0], &title, TITLE);
     }

@@ -13,6 +13,7 @@ mod axis;
 mod canvas;
 mod caveats;
 mod chart;
+mod choice;
 mod colour;
 mod contest;
 mod costs;
@@ -25,6 +26,8 @@ mod grid;
 mod mark;
 mod page;
 mod phrase;
+mod png;
+mod ranking;
 mod scale;
 mod sheet;
 mod tables;
@@ -58,7 +61,7 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
     for (name, png) in figures.files() {
         folder.put(name, png)?;
     }
-    let page = page::Page::of(results, &figures);
+    let page = page::Page::of(results, costs, &figures);
     folder.put("report.md", page::markdown(&page).as_bytes())?;
     folder.put("report.html", page::html(&page).as_bytes())?;
     Ok(folder.written())
@@ -66,7 +69,7 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
 
 /// The answer in words, a short paragraph each: what a report opens with.
 pub fn lead(results: &Results) -> Vec<String> {
-    answer::answer(&contest::Comparison::of(results)).lead
+    answer::answer(&contest::Comparison::of(results))
 }
 
 #[cfg(test)]
@@ -89,7 +92,11 @@ mod tests {
     fn times_stay_out_of_everything_but_the_costs() {
         let results = fixture::results();
         let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
-        let costs = [fixture::costs(), Costs::default()];
+        let mut slower = fixture::costs();
+        slower.total_secs *= 2.0;
+        slower.trials.iter_mut().for_each(|t| t.ns_per_pixel *= 3.0);
+        slower.prefilters.iter_mut().for_each(|p| p.secs *= 5.0);
+        let costs = [fixture::costs(), slower];
         let written = [0, 1].map(|i| write(&results, &costs[i], folders[i].path()).unwrap());
         let differ = written[0].iter().zip(&written[1]);
         let differ = differ.filter(|(a, b)| std::fs::read(a).unwrap() != std::fs::read(b).unwrap());

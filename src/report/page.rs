@@ -5,12 +5,13 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, context};
 use serde::Serialize;
 
-use super::answer::{Answer, answer};
+use super::answer::answer;
 use super::contest::{Comparison, unique};
 use super::figures::Figures;
+use super::ranking;
 use super::tables::{self, Table};
 use super::words;
-use crate::experiment::results::{MethodInfo, Results, TextureInfo};
+use crate::experiment::results::{Costs, MethodInfo, Results, TextureInfo};
 
 /// A report before it is set.
 #[derive(Serialize)]
@@ -18,8 +19,9 @@ pub struct Page<'a> {
     name: &'a str,
     title: &'a str,
     question: &'a str,
-    answer: Answer,
+    answer: Vec<String>,
     ranking: Table,
+    normalising: Option<Table>,
     dagger: Option<String>,
     settings: Vec<SettingTables>,
     others: Option<Table>,
@@ -28,6 +30,8 @@ pub struct Page<'a> {
     shadings: Vec<Definition<'a>>,
     metrics: Vec<Definition<'a>>,
     figures: &'a Figures,
+    /// How to read the figures of distributions.
+    reading: &'static str,
     spec: &'a str,
     seed: u64,
 }
@@ -36,6 +40,7 @@ pub struct Page<'a> {
 #[derive(Serialize)]
 struct SettingTables {
     name: String,
+    choice: Option<Table>,
     winners: Table,
     tables: Vec<Table>,
 }
@@ -49,10 +54,11 @@ struct Definition<'a> {
 
 impl<'a> Page<'a> {
     /// The report on these results.
-    pub fn of(results: &'a Results, figures: &'a Figures) -> Self {
+    pub fn of(results: &'a Results, costs: &Costs, figures: &'a Figures) -> Self {
         let comparison = Comparison::of(results);
         let settings = comparison.settings.iter().map(|setting| SettingTables {
             name: setting.name.clone(),
+            choice: ranking::choice(&comparison, setting),
             winners: tables::winners(setting),
             tables: setting
                 .scales
@@ -65,7 +71,8 @@ impl<'a> Page<'a> {
             title: &results.title,
             question: &results.question,
             answer: answer(&comparison),
-            ranking: tables::ranking(&comparison),
+            ranking: ranking::ranking(&comparison, costs),
+            normalising: ranking::normalising(&comparison),
             dagger: tables::dagger(&results.methods),
             settings: settings.collect(),
             others: tables::other_metrics(&comparison),
@@ -74,6 +81,7 @@ impl<'a> Page<'a> {
             shadings: shadings(results),
             metrics: metrics(results),
             figures,
+            reading: words::DISTRIBUTIONS,
             spec: &results.spec,
             seed: results.seed,
         }
@@ -162,7 +170,11 @@ mod tests {
     #[test]
     fn the_markdown_report() {
         let results = fixture::results();
-        insta::assert_snapshot!(markdown(&Page::of(&results, &Figures::of(&results))));
+        insta::assert_snapshot!(markdown(&Page::of(
+            &results,
+            &fixture::costs(),
+            &Figures::of(&results)
+        )));
     }
 
     #[test]
@@ -176,7 +188,7 @@ mod tests {
         results.scenes.clear();
         results.textures.clear();
         let figures = Figures::of(&results);
-        let page = Page::of(&results, &figures);
+        let page = Page::of(&results, &fixture::costs(), &figures);
         assert!(markdown(&page).contains("Nothing was measured"));
         assert!(html(&page).contains("Nothing was measured"));
     }
@@ -190,7 +202,7 @@ mod tests {
         for scene in &mut results.scenes {
             scene.key.texture = hostile.into();
         }
-        let page = html(&Page::of(&results, &Figures::of(&results)));
+        let page = html(&Page::of(&results, &fixture::costs(), &Figures::of(&results)));
         assert!(page.contains("&lt;script&gt;alert(1)"));
         assert!(!page.contains("<script>alert"));
         assert!(!page.contains("\" onload=\""));

@@ -38,6 +38,17 @@ pub fn times(value: f64) -> String {
     }
 }
 
+/// A part of a whole, to two digits: `4.3 %`, `51 %`, `105 %`.
+pub fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    let text = if percent > 0.0 && percent < 9.95 {
+        format!("{percent:.1}")
+    } else {
+        number(percent.round())
+    };
+    format!("{}\u{a0}%", text.trim_end_matches(".0"))
+}
+
 fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
@@ -59,11 +70,6 @@ pub fn list<S: AsRef<str>>(items: &[S]) -> String {
             format!("{} and {}", most.join(", "), last.as_ref())
         }
     }
-}
-
-/// `from a to b`, or `a` where both are the same.
-pub fn range(from: &str, to: &str) -> String {
-    if from == to { from.to_owned() } else { format!("from {from} to {to}") }
 }
 
 /// A number of samples: `37`, `more than 256`, `less than 1`.
@@ -112,6 +118,12 @@ mod tests {
             [scale(8.0), scale(0.5), scale(1000.0), scale(2.25)],
             ["8", "0.5", "1000", "2.25"]
         );
+    }
+
+    #[test]
+    fn percentages_have_two_digits_or_the_whole() {
+        let texts = [0.0432, 0.513, 0.0951, 1.05, 0.0].map(percent);
+        assert_eq!(texts, ["4.3\u{a0}%", "51\u{a0}%", "9.5\u{a0}%", "105\u{a0}%", "0\u{a0}%"]);
     }
 
     #[test]

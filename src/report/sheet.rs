@@ -1,6 +1,6 @@
 //! Contact sheets: a scene's reference and each method's image above its error.
 
-use super::canvas::{Anchor, Canvas, Point, Type, png_of};
+use super::canvas::{Anchor, Canvas, Point, Type};
 use super::chart::{SMALL, TEXT};
 use super::colour::{GREY, signed};
 use super::contest::{DECIDES, median};
@@ -60,13 +60,6 @@ pub fn frames(scene: &SceneResult, spp: u32) -> Frames {
         error: Some(tone::error_picture(&trial.film, &reference.film, full)),
     });
     Frames { frames: std::iter::once(first).chain(methods).collect(), white, full }
-}
-
-impl Frame {
-    /// The image as a PNG file.
-    pub fn png(&self) -> Vec<u8> {
-        png_of(&self.image)
-    }
 }
 
 /// The contact sheet.

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::answer::{gains, wins, worth};
-use super::contest::{Comparison, Contest, DECIDES, Setting, geometric_mean, median, rank, unique};
+use super::caveats::not_finite;
+use super::contest::{Comparison, Contest, DECIDES, Setting, median, rank, unique};
 use super::phrase;
 use super::scale::Scale;
 use super::words::better;
@@ -53,79 +53,43 @@ pub fn label(method: &MethodInfo) -> String {
 /// What the dagger of [`label`] means, if it is used.
 pub fn dagger(methods: &[MethodInfo]) -> Option<String> {
     let any = methods.iter().any(|m| !m.normalised);
-    any.then(|| "† as printed, without a normalisation: wrong brightness counts as error.".into())
-}
-
-/// How each method did over all scenes.
-pub fn ranking(comparison: &Comparison) -> Table {
-    let brute = comparison.brute_force();
-    let mut head =
-        vec!["Method".to_owned(), "Scenes".into(), "Closest alone".into(), "Tied".into()];
-    if let Some(brute) = brute {
-        head.push(format!("RMSE of {} ÷ its own", brute.label));
-        head.push("Worth, unfiltered samples a pixel".into());
-    }
-    let best = comparison.results.methods.iter().map(|m| wins(comparison, &m.label)).max();
-    let rows = comparison.results.methods.iter().map(|method| {
-        let (alone, tied) = wins(comparison, &method.label);
-        let scenes = comparison.contests().filter(|c| c.standing(&method.label).is_some()).count();
-        let mut row = vec![
-            Cell::from(label(method)),
-            scenes.to_string().into(),
-            Cell { best: Some((alone, tied)) == best, ..alone.to_string().into() },
-            tied.to_string().into(),
-        ];
-        if let Some(brute) = brute {
-            row.push(gain_cell(comparison, &method.label, &brute.label));
-            row.push(worth_cell(comparison, &method.label));
-        }
-        row
-    });
-    Table {
-        title: "All scenes".into(),
-        head,
-        rows: rows.collect(),
-        notes: dagger(&comparison.results.methods).into_iter().collect(),
-    }
-}
-
-fn gain_cell(comparison: &Comparison, label: &str, brute: &str) -> Cell {
-    let mean = geometric_mean(gains(comparison, label, brute).into_iter());
-    mean.map_or_else(Cell::default, |mean| phrase::times(mean).into())
-}
-
-fn worth_cell(comparison: &Comparison, label: &str) -> Cell {
-    worth(comparison, label).map_or_else(Cell::default, |(middle, low, high)| Cell {
-        text: phrase::samples_short(middle),
-        aside: format!("{} … {}", phrase::samples_short(low), phrase::samples_short(high)),
-        best: false,
+    any.then(|| {
+        "† keeps its lobes as printed, without normalising them: wrong brightness counts as error."
+            .into()
     })
 }
 
 /// Who came closest: scale by texture. All that tie are named.
 pub fn winners(setting: &Setting) -> Table {
     let textures = setting.textures();
-    let cell = |scale: &Scale, texture: &str| {
-        let contest = setting.at(scale).find(|c| c.scene.key.texture == texture);
-        let winners = || contest.into_iter().flat_map(Contest::winners);
-        let worth = winners().filter_map(|s| s.worth).max_by(|a, b| rank(*a).total_cmp(&rank(*b)));
-        Cell {
-            text: winners().map(|s| label(s.method)).collect::<Vec<_>>().join(" = "),
-            aside: worth.map_or_else(String::new, phrase::samples_short),
-            best: false,
-        }
-    };
     let rows = setting.scales.iter().map(|scale| {
-        let cells = textures.iter().map(|texture| cell(scale, texture));
+        let contest_of =
+            |texture: &&str| setting.at(scale).find(|c| c.scene.key.texture == *texture);
+        let cells = textures.iter().map(|t| contest_of(t).map_or_else(Cell::default, closest));
         std::iter::once(scale.label.as_str().into()).chain(cells).collect()
     });
     let head = std::iter::once("Closest").chain(textures.iter().copied()).map(str::to_owned);
     Table {
-        title: "Closest to the reference, and its worth in unfiltered samples a pixel".into(),
+        title: "Closest on each texture".into(),
         head: head.collect(),
         rows: rows.collect(),
-        notes: Vec::new(),
+        notes: vec![
+            "In small type: its RMSE over the reference’s mean radiance; how many unfiltered samples a pixel reach the \
+             same. = joins methods that tie."
+                .into(),
+        ],
     }
+}
+
+/// The methods that came closest, their relative error and its worth.
+fn closest(contest: &Contest) -> Cell {
+    let names: Vec<_> = contest.winners().map(|s| label(s.method)).collect();
+    let least = contest.winners().map(|s| s.error).reduce(f64::min);
+    let relative = least.and_then(|e| contest.relative(e)).map(phrase::percent);
+    let worths = contest.winners().filter_map(|s| s.worth);
+    let worth = worths.max_by(|a, b| rank(*a).total_cmp(&rank(*b))).map(phrase::samples_short);
+    let aside: Vec<_> = relative.into_iter().chain(worth).collect();
+    Cell { text: names.join(" = "), aside: aside.join("; "), best: false }
 }
 
 /// Method by texture at one scale of a setting.
@@ -134,36 +98,43 @@ pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &Scale) -> Ta
     let contest_of = |texture: &str| setting.at(scale).find(|c| c.scene.key.texture == texture);
     let contests: Vec<_> = textures.iter().map(|t| contest_of(t)).collect();
     let methods = &comparison.results.methods;
+    let cell = |c: &Option<&Contest>, method| {
+        c.map_or_else(Cell::default, |c| error(comparison, c, method))
+    };
     let rows = methods.iter().map(|method| {
-        let errors = contests.iter().map(|c| c.map_or_else(Cell::default, |c| error(c, method)));
+        let errors = contests.iter().map(|c| cell(c, method));
         std::iter::once(label(method).into()).chain(errors).collect()
     });
-    let floor = contests
-        .iter()
-        .map(|c| c.map_or_else(Cell::default, |c| phrase::number(c.scene.reference.rmse).into()));
-    let floor = std::iter::once("the reference’s own".into()).chain(floor).collect();
+    let foot = |name: &str, figure: fn(&Contest) -> f64| -> Vec<Cell> {
+        let text = |c: &Option<&Contest>| {
+            c.map_or_else(Cell::default, |c| phrase::number(figure(c)).into())
+        };
+        std::iter::once(name.into()).chain(contests.iter().map(text)).collect()
+    };
+    let feet = [
+        foot("the reference’s own", |c| c.scene.reference.rmse),
+        foot("its mean radiance", |c| c.mean),
+    ];
     let head = std::iter::once("RMSE").chain(textures.iter().copied()).map(str::to_owned);
     Table {
         title: scale.label.clone(),
         head: head.collect(),
-        rows: rows.chain(std::iter::once(floor)).collect(),
-        notes: reasons(&contests),
+        rows: rows.chain(feet).collect(),
+        notes: Vec::new(),
     }
 }
 
-/// A method's error in a scene and what it is worth; empty if it was not measured.
-fn error(contest: &Contest, method: &MethodInfo) -> Cell {
-    contest.standing(&method.label).map_or_else(Cell::default, |standing| Cell {
-        text: phrase::number(standing.error),
-        aside: standing.worth.map_or_else(String::new, phrase::samples_short),
-        best: standing.best,
-    })
-}
-
-/// Why cells are empty.
-fn reasons(contests: &[Option<&Contest>]) -> Vec<String> {
-    let refusals = contests.iter().flatten().flat_map(|c| &c.scene.refusals);
-    unique(refusals.map(|r| format!("{}: {}.", r.method, r.reason.trim_end_matches('.'))))
+/// A method's error in a scene and what it is worth; empty if it took no part.
+fn error(comparison: &Comparison, contest: &Contest, method: &MethodInfo) -> Cell {
+    match contest.standing(&method.label) {
+        Some(standing) => Cell {
+            text: phrase::number(standing.error),
+            aside: standing.worth.map_or_else(String::new, phrase::samples_short),
+            best: standing.best,
+        },
+        None if not_finite(comparison, contest, &method.label) => "not finite".into(),
+        None => Cell::default(),
+    }
 }
 
 /// The other metrics, if any: the median over all scenes, a column a metric.
@@ -176,11 +147,21 @@ pub fn other_metrics(comparison: &Comparison) -> Option<Table> {
     });
     let head = std::iter::once("Method").chain(metrics.iter().copied()).map(str::to_owned);
     (!metrics.is_empty()).then(|| Table {
-        title: "Other measures, median over all scenes".into(),
+        title: format!(
+            "Other measures at {} a pixel, median over scenes",
+            phrase::count(comparison.spp as usize, "sample")
+        ),
         head: head.collect(),
         rows: rows.collect(),
-        notes: metrics.iter().filter_map(|m| Some(format!("{m}: {}.", better(m)?))).collect(),
+        notes: vec![directions(&metrics)],
     })
+}
+
+/// Which way each metric is better, in one line.
+fn directions(metrics: &[&str]) -> String {
+    let found: Vec<_> =
+        metrics.iter().filter_map(|m| Some(format!("{m}: {}", better(m)?))).collect();
+    found.join("; ") + "."
 }
 
 fn median_score(comparison: &Comparison, label: &str, metric: &str) -> Cell {
@@ -201,7 +182,7 @@ mod tests {
         let results = fixture::results();
         let comparison = Comparison::of(&results);
         let setting = &comparison.settings[0];
-        let mut tables = vec![ranking(&comparison), other_metrics(&comparison).unwrap()];
+        let mut tables = vec![winners(setting), other_metrics(&comparison).unwrap()];
         tables.extend(setting.scales.iter().map(|s| at_scale(&comparison, setting, s)));
         for table in tables {
             assert!(table.rows.iter().all(|row| row.len() == table.head.len()), "{}", table.title);
@@ -209,14 +190,18 @@ mod tests {
     }
 
     #[test]
-    fn a_refused_cell_is_empty_with_its_reason_below() {
-        let results = fixture::results();
+    fn a_refused_cell_is_empty_and_a_broken_one_says_so() {
+        let mut results = fixture::results();
+        results.scenes[1]
+            .trials
+            .iter_mut()
+            .filter(|t| t.method == "averaged")
+            .for_each(|t| t.scores.clear());
         let comparison = Comparison::of(&results);
-        let table =
-            at_scale(&comparison, &comparison.settings[0], &comparison.settings[0].scales[1]);
-        let waves = &table.rows[5][3];
-        assert!(waves.text.is_empty());
-        assert!(table.notes[0].starts_with("kautz: its table"), "{:?}", table.notes);
+        let setting = &comparison.settings[0];
+        let table = at_scale(&comparison, setting, &setting.scales[1]);
+        assert!(table.rows[5][3].text.is_empty());
+        assert_eq!(table.rows[1][1].text, "not finite");
     }
 
     #[test]

@@ -86,20 +86,15 @@ fn rows(results: &Results) -> impl Iterator<Item = Row<'_>> {
     results.scenes.iter().flat_map(scene_rows)
 }
 
-/// The reference's own error first, then trials, then distributions.
+/// The reference's own error and mean first, then trials, then distributions.
 fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
-    std::iter::once(reference_row(scene)).chain(trial_rows(scene)).chain(probe_rows(scene))
+    reference_rows(scene).into_iter().chain(trial_rows(scene)).chain(probe_rows(scene))
 }
 
-fn reference_row(scene: &SceneResult) -> Row<'_> {
-    let reference = &scene.reference;
-    Row {
-        key: &scene.key,
-        method: "reference",
-        spp: Some(reference.spp),
-        metric: "rmse",
-        value: reference.rmse,
-    }
+fn reference_rows(scene: &SceneResult) -> [Row<'_>; 2] {
+    let spp = Some(scene.reference.spp);
+    let row = |metric, value| Row { key: &scene.key, method: "reference", spp, metric, value };
+    [row("rmse", scene.reference.rmse), row("mean_radiance", super::contest::mean_radiance(scene))]
 }
 
 fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
@@ -250,7 +245,7 @@ mod tests {
         let mut results = fixture::results();
         results.scenes[0].trials[0].scores[0].value = f64::NAN;
         let read: serde_json::Value = serde_json::from_slice(&json(&results)).unwrap();
-        assert!(read["scenes"][0]["metrics"][1]["value"].is_null());
+        assert!(read["scenes"][0]["metrics"][2]["value"].is_null());
         assert_eq!(read["scenes"][8]["refusals"][0]["method"], "kautz");
     }
 }

@@ -16,6 +16,12 @@ pub fn shading_formula(shading: &str) -> &'static str {
     }
 }
 
+/// How to read a figure of distributions of normals.
+pub const DISTRIBUTIONS: &str = "A distribution of normals is shown on the hemisphere seen from above, x to the right, y \
+    up. Colour is the square root of density, on the scale of the true distribution; what exceeds its greatest density \
+    is yellow. Rings mark the axes of lobes. The distance is ½ ∫ |D − D_true| cos θ dω: 0 for equal distributions, 1 for \
+    disjoint ones, more where energy is not kept.";
+
 /// What a metric of `metrics.csv` is: its meaning and formula, with its constants.
 pub fn metric_formula(name: &str) -> Option<String> {
     if name == "ndf_l1" {

@@ -1,9 +1,11 @@
-// Flips the images of a scene in place: click one, then number keys or buttons; Escape shows all again.
+// Flips the images of a scene in place: click one, then arrow or number keys or buttons; Escape shows all again.
 for (const scene of document.querySelectorAll(".scene")) {
   const figures = [...scene.querySelectorAll(".frames figure")];
   const keys = document.createElement("div");
   keys.className = "keys";
+  let shown = -1;
   const show = (index) => {
+    shown = index;
     const on = index >= 0 && index < figures.length;
     scene.classList.toggle("flip", on);
     figures.forEach((figure, i) => figure.classList.toggle("on", i === index));
@@ -27,7 +29,11 @@ for (const scene of document.querySelectorAll(".scene")) {
   scene.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Escape" || event.key === "0") show(-1);
-    else if (/^[1-9]$/.test(event.key)) show(Number(event.key) - 1);
+    else if (shown >= 0 && (event.key === "ArrowRight" || event.key === "ArrowLeft")) {
+      const step = event.key === "ArrowRight" ? 1 : -1;
+      show((shown + step + figures.length) % figures.length);
+      event.preventDefault();
+    } else if (/^[1-9]$/.test(event.key)) show(Number(event.key) - 1);
   });
   show(-1);
 }
