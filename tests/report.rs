@@ -74,7 +74,8 @@ fn errors(folder: &Path) -> Errors {
 fn table(report: &str, first: &str) -> Vec<Vec<String>> {
     let head = report.find(&format!("| {first} |")).unwrap_or_else(|| panic!("no table {first}"));
     let lines = report[head..].lines().take_while(|line| line.starts_with('|')).skip(2);
-    let cells = |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
+    let cells =
+        |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
     lines.map(cells).collect()
 }
 
