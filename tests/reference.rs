@@ -1,5 +1,6 @@
 //! The truth the filters are measured against: that it converges as its points promise, that it knows
 //! its own error, and that filters agree with what can be written down in closed form.
+#![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -5,11 +5,10 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use std::sync::Arc;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use wrinkle::experiment::results::{Results, SceneResult};
-use wrinkle::experiment::runner::{Outcome, Watcher, run};
+use wrinkle::experiment::runner::{Outcome, run, unwatched};
 use wrinkle::experiment::spec::Spec;
 use wrinkle::render::{Film, heat, percentile, srgb};
 use wrinkle::scene::Halt;
@@ -24,8 +23,7 @@ const GAP: usize = 4;
 /// The run, with its records in `scratch`.
 pub fn results(root: &Path, scratch: &Path) -> Result<Results, Error> {
     let spec = Spec::load(&root.join("examples/readme/denim-ball.toml"))?;
-    let nobody: Watcher = Arc::new(|_| ());
-    match run(&spec, scratch, &Halt::default(), &nobody)? {
+    match run(&spec, scratch, &Halt::default(), &unwatched())? {
         Outcome::Finished(found) => Ok(found.0),
         Outcome::Halted => Err("halted".into()),
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::Entity;
 
-pub use super::event::{RunEvent, Watcher};
+pub use super::event::{RunEvent, Watcher, unwatched};
 
 use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
 use super::collect::{collect, known_scores, named_scores, probe_records};

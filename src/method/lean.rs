@@ -165,7 +165,7 @@ mod tests {
     fn a_tilted_normal_is_as_near_as_claimed() {
         for base in lobes() {
             let claimed = Lean.base_error(&base).unwrap();
-            for degrees in [10.0, 20.0, 45.0, 65.0] {
+            for degrees in [10.0f64, 20.0, 45.0, 65.0] {
                 let slope = libm::tan(degrees.to_radians());
                 let found = distance(&base, tilted(degrees));
                 assert!(found <= 0.46 * claimed * slope, "{base} {degrees}°: {found}");

@@ -84,8 +84,8 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// What it is.
     fn card(&self) -> Card;
 
-    /// How near it comes to `base` where a footprint holds a single normal: the total variation
-    /// distance ½ ∫ |D − D_base| cos dω it claims to stay under (0 for exact, up to rounding).
+    /// How near it comes to `base` where a footprint holds a single normal, tilted by 45° or less: the
+    /// total variation distance ½ ∫ |D − D_base| cos dω it claims to stay under (0 for exact, up to rounding).
     ///
     /// # Errors
     /// A [`Refusal`] if it cannot take this base lobe at all.

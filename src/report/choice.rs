@@ -112,7 +112,7 @@ fn prefix(comparison: &Comparison, setting: &Setting) -> String {
         comparison.settings.iter().any(|other| other.name.split(", ").nth(*i) != Some(**part))
     };
     let apart: Vec<&str> = parts.iter().enumerate().filter(differs).map(|(_, p)| *p).collect();
-    if apart.is_empty() { String::new() } else { format!("With {}: ", apart.join(", ")) }
+    if apart.is_empty() { String::new() } else { format!("With a {}: ", apart.join(", ")) }
 }
 
 /// `Choose fournier at 4 and 16 texels a pixel: it leaves …`
@@ -121,7 +121,10 @@ fn choose(label: &str, at: &[&Choice], brute: &str) -> String {
     let left: Vec<_> = best().map(|c| phrase::percent(c.left)).collect();
     let worth: Option<Vec<_>> = best().map(|c| c.worth.map(phrase::samples)).collect();
     let worth = worth.map_or_else(String::new, |worth| {
-        format!(", which {brute} reaches with {} samples a pixel (median)", list(&worth))
+        format!(
+            ", which {brute} reaches with {} samples a pixel (median over textures)",
+            list(&worth)
+        )
     });
     let textures = at.iter().map(|c| c.textures).max().unwrap_or(0);
     format!(

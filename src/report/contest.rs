@@ -55,11 +55,6 @@ impl<'a> Contest<'a> {
         self.standings.iter().filter(|s| s.best)
     }
 
-    /// The least error among the methods that did not come closest, and whose it is.
-    pub fn runner_up(&self) -> Option<&Standing<'a>> {
-        self.standings.iter().filter(|s| !s.best).min_by(|a, b| a.error.total_cmp(&b.error))
-    }
-
     /// An error as a part of the reference's mean radiance.
     pub fn relative(&self, error: f64) -> Option<f64> {
         (self.mean > 0.0).then(|| error / self.mean)
@@ -229,7 +224,6 @@ mod tests {
         let comparison = Comparison::of(&results);
         let first = comparison.contests().next().unwrap();
         assert_eq!(label(first).len(), first.standings.len());
-        assert!(first.runner_up().is_none());
     }
 
     #[test]

@@ -112,8 +112,12 @@ fn slope_guide(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     let end = (last.0, first.1 * (first.0 / last.0).sqrt());
     let line = [panel.at(first.0, first.1), panel.at(end.0, end.1)];
     canvas.line(&line, GREY, 1.2, Some([1.5, 2.5]));
-    let at = [line[1][0] - 4.0, line[1][1] - 10.0];
-    canvas.text(at, "independent samples, slope −½", Type { anchor: Anchor::End, ..SMALL });
+    // The line falls to the right: text that clears it where it begins clears it all along.
+    const NAME: &str = "independent samples, slope −½";
+    let ([left, top], [right, bottom]) = (line[0], line[1]);
+    let along = font::width(NAME, SMALL.size, false) / (right - left).max(1.0);
+    let at = [right, bottom - along * (bottom - top) - 6.0];
+    canvas.text(at, NAME, Type { anchor: Anchor::End, ..SMALL });
 }
 
 fn axis_titles(canvas: &mut Canvas, panel: &Panel, across: &str) {

@@ -72,19 +72,19 @@ pub fn list<S: AsRef<str>>(items: &[S]) -> String {
     }
 }
 
-/// A number of samples: `37`, `more than 256`, `less than 1`.
+/// A number of samples: `37`, `more than 256`, `fewer than 1`.
 pub fn samples(equivalent: Equivalent) -> String {
     match equivalent {
         Equivalent::Samples(n) if n < 10.0 => scale((n * 10.0).round() / 10.0),
         Equivalent::Samples(n) => number(n.round()).trim_end_matches(".0").to_owned(),
         Equivalent::MoreThan(n) => format!("more than {n}"),
-        Equivalent::FewerThan(n) => format!("less than {n}"),
+        Equivalent::FewerThan(n) => format!("fewer than {n}"),
     }
 }
 
 /// The same for a table's cell: `37`, `> 256`, `< 1`.
 pub fn samples_short(equivalent: Equivalent) -> String {
-    samples(equivalent).replace("more than", ">").replace("less than", "<")
+    samples(equivalent).replace("more than", ">").replace("fewer than", "<")
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ fn total_variation(surface: &MultipleSurface, base: &BaseLobe, normal: [f32; 3])
 
 #[test]
 fn a_single_normal_gives_the_base_lobe() {
-    for tilt in [0.0f64, 20.0, 45.0, 65.0] {
+    for tilt in [0.0f64, 20.0, 45.0] {
         let (sine, cosine) = tilt.to_radians().sin_cos();
         let map = single(8, [0.8 * sine, -0.6 * sine, cosine]);
         let [x, y, z, _] = map.texel(0, 0);
