@@ -1,5 +1,6 @@
 //! docs/conventions.md held to the program: a second renderer, written from the page alone in plain
 //! double precision, must make the same pictures.
+#![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 #[path = "conventions/brute.rs"]
 mod brute;
@@ -360,7 +361,9 @@ fn a_spec_tiles_to_the_texels_it_asks_for() {
         [texture.mine]\nfile = \"map.png\"\nkind = \"normal\"\n";
     let spec = Spec::parse(spec, &folder.path().join("spec.toml")).unwrap();
     let wish = Wish { texture: None, texels_per_pixel: Some(0.4), spp: 1 };
-    let film = render_one(&spec, build("unfiltered").unwrap().as_ref(), &wish, &wrinkle::method::Silent).unwrap();
+    let film =
+        render_one(&spec, build("unfiltered").unwrap().as_ref(), &wish, &wrinkle::method::Silent)
+            .unwrap();
     // The defaults of docs/experiments.md.
     let scene = Brute {
         elevation: 40.0,
