@@ -11,7 +11,8 @@ use std::path::Path;
 pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let mut beside = beside(folder)?;
-    beside.write_all(bytes)?;
+    // By the plain file: errors of the temporary one name it, which would only confuse.
+    beside.as_file_mut().write_all(bytes)?;
     beside.as_file().sync_all()?;
     beside.persist(path).map_err(|error| error.error)?;
     Ok(())
@@ -26,7 +27,7 @@ fn beside(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let made = builder.prefix(BESIDE).tempfile_in(folder);
-    // Without the temporary name, which would only confuse.
+    // As above, without the temporary name.
     made.map_err(|error| error.kind().into())
 }
 

@@ -1,5 +1,6 @@
 //! docs/conventions.md held to the program: a second renderer, written from the page alone in plain
 //! double precision, must make the same pictures.
+#![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 #[path = "conventions/brute.rs"]
 mod brute;

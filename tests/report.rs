@@ -1,4 +1,5 @@
 //! From a spec to a report: what it links to is there, and what it says follows from `metrics.csv`.
+#![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -42,7 +42,7 @@ pub struct PlannedScene {
     pub entity: Entity,
     /// Index of its texture in the spec.
     pub texture: usize,
-    /// What its texture is made of, as text (see [`super::keys`]).
+    /// What its texture is made of, as text.
     pub texture_key: String,
     /// Its base lobe.
     pub base: BaseLobe,

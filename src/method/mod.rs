@@ -1,4 +1,4 @@
-//! Floor 3: the filters. One file a method; [`registry`] lists them.
+//! Floor 3: the filters. One file a method; [`entries`] lists them.
 //!
 //! A method has two halves. [`Method::prefilter`] turns a normal map into something that can be looked
 //! up, once per map and base lobe, as slowly as it likes. [`Prefiltered`] answers, for any footprint,

@@ -34,7 +34,7 @@ fn scores_are_those_of_an_independent_program() {
             ("relmse", 0.272103674120251),
             ("psnr", 12.467504969739),
             ("ssim", 0.703576228436),
-            ("energy", 1.003926858513190),
+            ("energy", 1.003_926_858_513_19),
             ("highlight_energy", 0.918248818393015),
         ],
         [

@@ -47,9 +47,7 @@ fn build(
     current: Res<Current>,
     (halt, watch): (Res<Halt>, Res<Watch>),
     scenes: Query<&SceneOf>,
-    maps: Query<&Map>,
-    strategies: Query<&Strategy>,
-    materials: Query<&Material>,
+    (maps, strategies, materials): (Query<&Map>, Query<&Strategy>, Query<&Material>),
     pending: Query<(Entity, &PrefilterOf), Without<Prefilter>>,
     mut progress: MessageWriter<Progress>,
 ) {
