@@ -17,12 +17,17 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     Ok(())
 }
 
+/// How the names of files begin that are being written.
+pub const BESIDE: &str = ".writing-";
+
 /// A temporary file with the rights that any new file would have, not the private ones of a secret.
 fn beside(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.prefix(".writing-").tempfile_in(folder)
+    let made = builder.prefix(BESIDE).tempfile_in(folder);
+    // Without the temporary name, which would only confuse.
+    made.map_err(|error| error.kind().into())
 }
 
 #[cfg(test)]

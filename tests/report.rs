@@ -46,7 +46,7 @@ height = 16
 fn run(folder: &Path) -> Vec<PathBuf> {
     let spec = Spec::parse(SPEC, Path::new("tiny.toml")).unwrap();
     let halt = Halt(Arc::new(AtomicBool::new(false)));
-    let outcome = runner::run(&spec, folder, &halt, &mut |_| {}).unwrap();
+    let outcome = runner::run(&spec, folder, &halt, &runner::unwatched()).unwrap();
     let Outcome::Finished(found) = outcome else { panic!("nobody halted the run") };
     report::write(&found.0, &found.1, folder).unwrap()
 }

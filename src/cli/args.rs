@@ -93,7 +93,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "NAME")]
     pub texture: Option<String>,
     /// Texels across a pixel at the image's centre; the experiment's first scale, or 4, if not given.
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub texels_per_pixel: Option<f64>,
     /// Width and height of the image; the experiment's, or 640x480, if not given.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
@@ -105,10 +105,10 @@ pub struct RenderArgs {
     #[arg(long, default_value = "up", value_parser = ["up", "down"])]
     pub green: String,
     /// Height of white in the height map, in texels.
-    #[arg(long, value_name = "H", default_value_t = 8.0)]
+    #[arg(long, value_name = "H", default_value_t = 8.0, allow_negative_numbers = true, value_parser = parse_height)]
     pub height_scale: f64,
     /// Exposure of a PNG: radiance is multiplied by it. Chosen from the image if not given.
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: Option<f64>,
 }
 
@@ -140,6 +140,20 @@ fn parse_size(text: &str) -> Result<(usize, usize), String> {
         _ => Err(format!("`{side}` is not a whole number from 1 to 4096")),
     };
     Ok((side(width)?, side(height)?))
+}
+
+fn parse_height(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(height) if (-1e4..=1e4).contains(&height) => Ok(height),
+        _ => Err("give a number from -10000 to 10000".into()),
+    }
+}
+
+fn parse_exposure(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(exposure) if exposure > 0.0 && f64::is_finite(exposure) => Ok(exposure),
+        _ => Err("give a number above 0".into()),
+    }
 }
 
 fn parse_limit(text: &str) -> Result<(String, f64), String> {

@@ -1,18 +1,20 @@
 //! `wrinkle compare`: one image scored against another.
 
+use std::io::Write;
+
 use super::Exit;
 use super::args::CompareArgs;
-use super::exit::Failure;
+use super::exit::{Failure, tell};
+use crate::experiment::spec::no_such;
 use crate::metric;
 use crate::render::{Coding, read_image};
 
 /// Prints every metric of the two images.
-pub(super) fn compare(args: &CompareArgs) -> Result<Exit, Failure> {
+pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
     for (name, _) in &args.fail_above {
         if metric::find(name).is_none() {
             let known: Vec<&str> = metric::entries().iter().map(|m| m.name).collect();
-            let message = format!("there is no metric `{name}`; metrics: {}", known.join(", "));
-            return Err(Failure::wrong(message));
+            return Err(Failure::wrong(no_such("metric", name, &known)));
         }
     }
     let test = read_image(&args.test).map_err(Failure::wrong)?;
@@ -31,16 +33,16 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Exit, Failure> {
     if args.json {
         let scores: serde_json::Map<String, serde_json::Value> =
             scores.iter().map(|(name, value)| ((*name).to_owned(), (*value).into())).collect();
-        println!("{:#}", serde_json::Value::from(scores));
+        writeln!(out, "{:#}", serde_json::Value::from(scores))?;
     } else {
-        print(&scores);
+        print(&scores, out)?;
     }
     let above = |(name, limit): &(String, f64)| {
         scores.iter().any(|(metric, value)| metric == name && value > limit)
     };
     let failed: Vec<&(String, f64)> = args.fail_above.iter().filter(|limit| above(limit)).collect();
     for (name, limit) in &failed {
-        anstream::eprintln!("{name} is above {limit}");
+        tell(format_args!("{name} is above {limit}"));
     }
     Ok(if failed.is_empty() { Exit::Done } else { Exit::Differs })
 }
@@ -53,12 +55,13 @@ fn coding(coding: Coding) -> &'static str {
 }
 
 /// A line a metric: name, value, what it tells and its formula.
-fn print(scores: &[(&str, f64)]) {
+fn print(scores: &[(&str, f64)], out: &mut dyn Write) -> std::io::Result<()> {
     for metric in metric::entries() {
         let value = scores.iter().find(|(name, _)| *name == metric.name);
         let value = value.map_or("—".to_owned(), |(_, value)| format!("{value:.6}"));
-        anstream::println!("{:<17} {value:>12}  {}", metric.name, metric.meaning);
+        writeln!(out, "{:<17} {value:>12}  {}", metric.name, metric.meaning)?;
         let dim = anstyle::Style::new().dimmed();
-        anstream::println!("{dim}{:31} {}{dim:#}", "", metric.formula);
+        writeln!(out, "{dim}{:31} {}{dim:#}", "", metric.formula)?;
     }
+    Ok(())
 }

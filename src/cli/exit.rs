@@ -1,5 +1,7 @@
 //! Exit codes, and messages that end the program.
 
+use std::fmt::Display;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// How the program ends. These numbers are part of its interface.
@@ -29,26 +31,43 @@ impl From<Exit> for ExitCode {
 /// A message for standard error, and the exit that follows.
 #[derive(Debug)]
 pub(super) struct Failure {
-    message: String,
-    pub exit: Exit,
+    message: Option<String>,
+    exit: Exit,
 }
 
 impl Failure {
     /// The request is wrong: what, and what to do.
-    pub fn wrong(error: impl std::fmt::Display) -> Self {
-        Self { message: error.to_string(), exit: Exit::Wrong }
+    pub fn wrong(error: impl Display) -> Self {
+        Self { message: Some(error.to_string()), exit: Exit::Wrong }
     }
 
     /// The request is right but could not be carried out.
-    pub fn failed(error: impl std::fmt::Display) -> Self {
-        Self { message: error.to_string(), exit: Exit::Differs }
+    pub fn failed(error: impl Display) -> Self {
+        Self { message: Some(error.to_string()), exit: Exit::Differs }
+    }
+
+    /// Says what went wrong; the exit that follows.
+    pub fn tell(&self) -> Exit {
+        if let Some(message) = &self.message {
+            let red = anstyle::Style::new().fg_color(Some(anstyle::AnsiColor::Red.into())).bold();
+            tell(format_args!("{red}error:{red:#} {message}"));
+        }
+        self.exit
     }
 }
 
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let red = anstyle::Style::new().fg_color(Some(anstyle::AnsiColor::Red.into())).bold();
-        let message = self.message.strip_prefix("error: ").unwrap_or(&self.message);
-        write!(f, "{red}error:{red:#} {message}")
+impl From<io::Error> for Failure {
+    /// Standard output does not take what is written to it. Whoever closed it early, such as `head`,
+    /// has read enough: that is no failure.
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self { message: None, exit: Exit::Done },
+            _ => Self::failed(format!("cannot write to standard output: {error}")),
+        }
     }
+}
+
+/// Writes a line to standard error. If even that cannot be written, there is nobody left to tell.
+pub(super) fn tell(message: impl Display) {
+    let _ = writeln!(anstream::stderr(), "{message}");
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::exit::Failure;
-use crate::experiment::spec::Spec;
+use crate::experiment::spec::{Spec, no_such};
 
 /// Where experiments are looked for by name, from the working folder.
 pub(super) const FOLDER: &str = "experiments";
@@ -23,17 +23,12 @@ pub(super) fn locate(name: &str) -> Result<PathBuf, Failure> {
         return Ok(file);
     }
     let known = names();
-    let hint = known
-        .iter()
-        .map(|known| (strsim::jaro_winkler(known, name), known))
-        .filter(|(nearness, _)| *nearness > 0.7)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or(String::new(), |(_, near)| format!("; did you mean `{near}`?"));
-    let there_are = match known.as_slice() {
-        [] => format!("there is no folder {FOLDER}/ with experiments here"),
-        known => format!("experiments here: {}", known.join(", ")),
-    };
-    Err(Failure::wrong(format!("there is no experiment `{name}`{hint} ({there_are})")))
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    Err(Failure::wrong(if known.is_empty() {
+        format!("there is no experiment `{name}`: no folder {FOLDER}/ with experiments is here")
+    } else {
+        no_such("experiment", name, &known)
+    }))
 }
 
 /// Names of the experiments in the working folder, in alphabetical order.

@@ -1,5 +1,7 @@
 //! `wrinkle list`: what there is.
 
+use std::io::Write;
+
 use serde_json::{Value as Json, json};
 
 use super::Exit;
@@ -17,18 +19,20 @@ const SURFACES: [(&str, &str); 2] = [
 ];
 
 /// Prints experiments, methods, patterns and surfaces.
-pub(super) fn list(args: &ListArgs) -> Result<Exit, Failure> {
+pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
     if args.json {
-        println!("{:#}", as_json());
+        writeln!(out, "{:#}", as_json())?;
     } else {
-        for (heading, rows) in sections() {
+        for (i, (heading, rows)) in sections().into_iter().enumerate() {
+            if i > 0 {
+                writeln!(out)?;
+            }
             let bold = anstyle::Style::new().bold();
-            anstream::println!("{bold}{heading}{bold:#}");
+            writeln!(out, "{bold}{heading}{bold:#}")?;
             let widest = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
             for (name, what) in rows {
-                anstream::println!("  {name:widest$}  {what}");
+                writeln!(out, "  {name:widest$}  {what}")?;
             }
-            anstream::println!();
         }
     }
     Ok(Exit::Done)

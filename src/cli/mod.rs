@@ -2,7 +2,6 @@
 
 mod args;
 mod compare;
-
 mod exit;
 mod experiments;
 mod list;
@@ -10,33 +9,35 @@ mod progress;
 mod render;
 mod run;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
 use args::{Args, Command};
 pub use exit::Exit;
+use exit::Failure;
 
 /// Reads the arguments and does what they ask.
 pub fn main() -> ExitCode {
     let args = Args::parse();
-    let Some(command) = args.command else {
-        // Nothing was asked: help, as a first answer.
-        let help = Args::command().render_help();
-        anstream::print!("{}", help.ansi());
-        return Exit::Done.into();
-    };
-    let exit = match command {
-        Command::Run(args) => run::run(&args),
-        Command::List(args) => list::list(&args),
-        Command::Render(args) => render::render(&args),
-        Command::Compare(args) => compare::compare(&args),
-    };
-    match exit {
-        Ok(exit) => exit.into(),
-        Err(failure) => {
-            anstream::eprintln!("{failure}");
-            failure.exit.into()
+    // Colour only where it is wanted: a terminal, and no NO_COLOR.
+    let mut out = anstream::stdout().lock();
+    let exit = obey(args, &mut out).and_then(|exit| Ok(out.flush().map(|()| exit)?));
+    exit.unwrap_or_else(|failure| failure.tell()).into()
+}
+
+/// Does what the arguments ask; what they ask for goes to `out`, all else to standard error.
+fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
+    match args.command {
+        Some(Command::Run(args)) => run::run(&args, out),
+        Some(Command::List(args)) => list::list(&args, out),
+        Some(Command::Render(args)) => render::render(&args, out),
+        Some(Command::Compare(args)) => compare::compare(&args, out),
+        None => {
+            // Nothing was asked: help, as a first answer.
+            write!(out, "{}", Args::command().render_help().ansi())?;
+            Ok(Exit::Done)
         }
     }
 }

@@ -1,17 +1,19 @@
 //! `wrinkle render`: one image, of an experiment or of a map of the user's own.
 
+use std::io::Write;
 use std::path::Path;
 
 use super::Exit;
 use super::args::RenderArgs;
 use super::exit::Failure;
 use super::experiments;
+use super::progress::Spinner;
 use crate::experiment::preview::{self, Wish};
-use crate::experiment::spec::Spec;
+use crate::experiment::spec::{Spec, no_such};
 use crate::method;
 
 /// Renders the image asked for and writes it.
-pub(super) fn render(args: &RenderArgs) -> Result<Exit, Failure> {
+pub(super) fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
     let format = args.out.extension().map(|e| e.to_string_lossy().to_lowercase());
     let png = match format.as_deref() {
         Some("png") => true,
@@ -21,13 +23,15 @@ pub(super) fn render(args: &RenderArgs) -> Result<Exit, Failure> {
             return Err(Failure::wrong(message));
         }
     };
+    let folder = args.out.parent().filter(|folder| *folder != Path::new(""));
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        let message =
+            format!("cannot write {}: there is no folder {}", args.out.display(), folder.display());
+        return Err(Failure::wrong(message));
+    }
     let method = method::build(&args.method).ok_or_else(|| {
         let known: Vec<&str> = method::entries().iter().map(|e| e.card.name).collect();
-        Failure::wrong(format!(
-            "there is no method `{}`; methods: {}",
-            args.method,
-            known.join(", ")
-        ))
+        Failure::wrong(no_such("method", &args.method, &known))
     })?;
     let spec = spec(args)?;
     let wish = Wish {
@@ -35,22 +39,26 @@ pub(super) fn render(args: &RenderArgs) -> Result<Exit, Failure> {
         texels_per_pixel: args.texels_per_pixel,
         spp: args.spp,
     };
-    let film = preview::render_one(&spec, method.as_ref(), &wish).map_err(Failure::wrong)?;
+    let spinner = Spinner::new(&args.method);
+    let film = preview::render_one(&spec, method.as_ref(), &wish, &spinner);
+    drop(spinner);
+    let film = film.map_err(Failure::wrong)?;
     let exposure = args.exposure.unwrap_or_else(|| 1.0 / film.white());
     let written = if png { film.write_png(exposure, &args.out) } else { film.write_exr(&args.out) };
     written.map_err(Failure::failed)?;
-    anstream::println!("{}", args.out.display());
+    writeln!(out, "{}", args.out.display())?;
     Ok(Exit::Done)
 }
 
 /// The experiment, or one made about the image file.
 fn spec(args: &RenderArgs) -> Result<Spec, Failure> {
     let path = Path::new(&args.file);
-    let known_image = path.extension().is_some_and(|e| {
+    let is_toml = path.extension().is_some_and(|e| e == "toml");
+    let is_image = path.extension().is_some_and(|e| {
         let e = e.to_string_lossy().to_lowercase();
         ["png", "tif", "tiff", "webp", "exr", "hdr"].contains(&e.as_str())
     });
-    let mut spec = if known_image {
+    let mut spec = if is_image || (path.is_file() && !is_toml) {
         if !path.is_file() {
             return Err(Failure::wrong(format!("there is no file {}", path.display())));
         }

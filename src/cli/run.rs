@@ -1,36 +1,25 @@
 //! `wrinkle run`: experiments to reports.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Exit;
 use super::args::RunArgs;
-use super::exit::Failure;
+use super::exit::{Failure, tell};
 use super::experiments;
 use super::progress::Bar;
+use crate::experiment::lock::{Lock, LockError};
 use crate::experiment::results::Results;
-use crate::experiment::runner::{self, Outcome, RunError};
+use crate::experiment::runner::{self, Outcome, RunError, Watcher};
 use crate::experiment::spec::Spec;
 use crate::report;
 use crate::scene::Halt;
 
 /// Runs the experiments asked for, one after the other.
-pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
-    // Every spec is read before any work is done.
-    let (mut specs, mut wrong) = (Vec::new(), Vec::new());
-    for name in &args.experiments {
-        match experiments::load(name) {
-            Ok(spec) => specs.push(spec),
-            Err(failure) => wrong.push(failure),
-        }
-    }
-    if let Some(last) = wrong.pop() {
-        for failure in &wrong {
-            anstream::eprintln!("{failure}");
-        }
-        return Err(last);
-    }
+pub(super) fn run(args: &RunArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
+    let specs = specs(&args.experiments)?;
     if let Some(threads) = args.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
         pool.build_global().map_err(Failure::failed)?;
@@ -39,33 +28,60 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut summaries = Vec::new();
     for spec in &specs {
         let folder = args.out.join(&spec.name);
-        match run_one(spec, &folder, &halt)? {
-            Some(summary) => {
-                if !args.json {
-                    summary.print();
-                }
-                summaries.push(summary);
-            }
-            None => {
-                anstream::eprintln!(
-                    "interrupted: what was finished is kept in {}; the same command goes on",
-                    folder.display()
-                );
-                return Ok(Exit::Interrupted);
-            }
+        let Some(summary) = run_one(spec, &folder, &halt)? else {
+            tell(format_args!(
+                "interrupted: what was finished is kept in {}; the same command goes on",
+                folder.display()
+            ));
+            return Ok(Exit::Interrupted);
+        };
+        if !args.json {
+            summary.print(out)?;
         }
+        summaries.push(summary);
     }
     if args.json {
         let all: Vec<_> = summaries.iter().map(Summary::json).collect();
-        println!("{:#}", serde_json::json!({ "experiments": all }));
+        writeln!(out, "{:#}", serde_json::json!({ "experiments": all }))?;
     }
     Ok(Exit::Done)
 }
 
+/// The specs of these names; every one is read before any work is done.
+fn specs(names: &[String]) -> Result<Vec<Spec>, Failure> {
+    let (mut specs, mut wrong): (Vec<Spec>, Vec<Failure>) = (Vec::new(), Vec::new());
+    for name in names {
+        match experiments::load(name) {
+            Ok(spec) if specs.iter().any(|other| other.name == spec.name) => {
+                let message =
+                    format!("two experiments are named `{}`: run one at a time", spec.name);
+                wrong.push(Failure::wrong(message));
+            }
+            Ok(spec) => specs.push(spec),
+            Err(failure) => wrong.push(failure),
+        }
+    }
+    match wrong.pop() {
+        None => Ok(specs),
+        Some(last) => {
+            for failure in &wrong {
+                failure.tell();
+            }
+            Err(last)
+        }
+    }
+}
+
 /// Runs one experiment and writes its report; None if it was halted.
 fn run_one(spec: &Spec, folder: &Path, halt: &Halt) -> Result<Option<Summary>, Failure> {
-    let mut bar = Bar::new(&spec.name);
-    let outcome = runner::run(spec, folder, halt, &mut |event| bar.take(&event));
+    let _lock = Lock::take(folder).map_err(|error| match error {
+        LockError::Taken { .. } => Failure::failed(error),
+        LockError::Store(_) => Failure::failed(format!("{error}; choose a folder with --out")),
+    })?;
+    let bar = Arc::new(Bar::new(&spec.name));
+    let watching = Arc::clone(&bar);
+    let watcher: Watcher = Arc::new(move |event| watching.take(&event));
+    let outcome = runner::run(spec, folder, halt, &watcher);
     bar.clear();
     match outcome {
         Ok(Outcome::Finished(found)) => {
@@ -75,7 +91,9 @@ fn run_one(spec: &Spec, folder: &Path, halt: &Halt) -> Result<Option<Summary>, F
         }
         Ok(Outcome::Halted) => Ok(None),
         Err(error @ RunError::Texture { .. }) => Err(Failure::wrong(error)),
-        Err(error @ RunError::Store(_)) => Err(Failure::failed(error)),
+        Err(error @ RunError::Store(_)) => Err(Failure::failed(format!(
+            "{error}; what was finished is kept: once there is room, the same command goes on"
+        ))),
     }
 }
 
@@ -103,20 +121,21 @@ impl Summary {
         }
     }
 
-    fn print(&self) {
+    fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
         let bold = anstyle::Style::new().bold();
-        anstream::println!(
-            "{bold}{}{bold:#}: {} trials of {} scenes in {:.1} s",
+        writeln!(
+            out,
+            "{bold}{}{bold:#}: {} of {} in {:.1} s",
             self.name,
-            self.trials,
-            self.scenes,
+            counted(self.trials, "trial"),
+            counted(self.scenes, "scene"),
             self.secs
-        );
+        )?;
         for sentence in &self.answer {
-            anstream::println!("  {sentence}");
+            writeln!(out, "  {sentence}")?;
         }
         let report = self.files.iter().find(|file| file.ends_with("report.html"));
-        anstream::println!("Report: {}", report.unwrap_or(&self.folder).display());
+        writeln!(out, "Report: {}", report.unwrap_or(&self.folder).display())
     }
 
     fn json(&self) -> serde_json::Value {
@@ -130,6 +149,11 @@ impl Summary {
             "seconds": self.secs,
         })
     }
+}
+
+/// "1 scene", "2 scenes".
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A halt that Ctrl-C (or SIGTERM) sets; the second one ends the program at once.

@@ -27,6 +27,14 @@ pub struct Plan {
     pub scenes: Vec<PlannedScene>,
 }
 
+impl Plan {
+    /// Whether no later scene looks at the prefilters of this one.
+    pub(super) fn is_last_of_its_prefilters(&self, scene: &PlannedScene) -> bool {
+        let last = self.scenes.iter().rfind(|other| other.prefilters == scene.prefilters);
+        last.is_some_and(|last| last.entity == scene.entity)
+    }
+}
+
 /// A scene of the sweep.
 #[derive(Clone, Debug)]
 pub struct PlannedScene {

@@ -65,7 +65,7 @@ pub(super) fn collect(
                 scene: scene.slug.clone(),
                 method: method.clone(),
                 spp: trial.spp,
-                ns_per_pixel: exposure.secs * 1e9 * costs.threads as f64 / pixels,
+                ns_per_pixel: exposure.cpu_secs * 1e9 / pixels,
             });
             let film = Arc::clone(&exposure.film);
             let scores = named_scores(scores);

@@ -2,9 +2,12 @@
 
 pub mod author;
 mod collect;
+mod event;
 mod keys;
+pub mod lock;
 pub mod preview;
 pub mod results;
 pub mod runner;
 pub mod spec;
 pub mod store;
+mod work;

@@ -1,8 +1,8 @@
 //! One image of an experiment, without keeping or scoring anything.
 
 use super::author::author;
-use super::spec::{Scale, Spec};
-use crate::method::{Method, Silent};
+use super::spec::{Scale, Spec, no_such};
+use crate::method::{Method, Progress};
 use crate::render::{Film, PixelSampler, render};
 use crate::scene::{Current, Failure, Halt, Stagehand, stage};
 
@@ -23,23 +23,30 @@ pub struct Wish<'a> {
 pub struct NoImage(String);
 
 /// Renders one image of an experiment through a method: its first lobe, and what `wish` chooses.
+/// `progress` hears of the prefilter.
 ///
 /// # Errors
 /// If there is no such texture, it cannot be loaded, or the method refuses the base lobe.
-pub fn render_one(spec: &Spec, method: &dyn Method, wish: &Wish<'_>) -> Result<Film, NoImage> {
+pub fn render_one(
+    spec: &Spec,
+    method: &dyn Method,
+    wish: &Wish<'_>,
+    progress: &dyn Progress,
+) -> Result<Film, NoImage> {
     let mut one = spec.clone();
     one.sweep.methods.clear();
     if let Some(name) = wish.texture {
         one.sweep.textures.retain(|texture| texture.name == name);
         if one.sweep.textures.is_empty() {
             let known: Vec<&str> = spec.sweep.textures.iter().map(|t| t.name.as_str()).collect();
-            let known = known.join(", ");
-            return Err(NoImage(format!("there is no texture `{name}`; textures: {known}")));
+            return Err(NoImage(no_such("texture", name, &known)));
         }
     }
     if let Some(texels) = wish.texels_per_pixel {
-        if !(texels > 0.0 && texels.is_finite()) {
-            return Err(NoImage(format!("{texels} texels across a pixel make no image")));
+        if !(texels > 0.0 && texels <= 65536.0) {
+            let message =
+                format!("{texels} texels across a pixel: give more than 0, at most 65536");
+            return Err(NoImage(message));
         }
         one.sweep.scale = Scale::TexelsPerPixel(vec![texels]);
     }
@@ -55,7 +62,7 @@ pub fn render_one(spec: &Spec, method: &dyn Method, wish: &Wish<'_>) -> Result<F
     let staged = stage(&mut hand.world, scene.entity)
         .ok_or_else(|| NoImage("the scene could not be put together".into()))?;
     let prefiltered = method
-        .prefilter(&staged.map, &staged.material.base, &Silent)
+        .prefilter(&staged.map, &staged.material.base, progress)
         .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;
     let sampler = PixelSampler::new(wish.spp);
     render(&staged.view, prefiltered.as_ref(), &sampler, spec.seed, 0, &|| false)

@@ -7,59 +7,20 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::Entity;
 
+pub use super::event::{RunEvent, Watcher, unwatched};
+
 use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
 use super::collect::{collect, known_scores, named_scores, probe_records};
 use super::keys;
 use super::results::{Costs, Results};
-use super::spec::Spec;
+use super::spec::{Spec, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, ReferenceRecord, Store, StoreError, TrialRecord};
+use super::work::Work;
 use crate::render::Converged;
 use crate::scene::{
     BuildCost, Current, Exposure, Failure, Halt, LoadError, Prefilter, Probes, Progress,
-    ReferenceImage, Scores, Stagehand,
+    ReferenceImage, Scores, Stagehand, Watch,
 };
-
-/// What a run tells those who watch it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RunEvent {
-    /// The run starts.
-    Started {
-        /// Units of work in all.
-        work: f64,
-        /// Scenes in all.
-        scenes: usize,
-        /// Trials in all.
-        trials: usize,
-    },
-    /// A scene's turn has come.
-    Scene {
-        /// Its slug.
-        slug: String,
-    },
-    /// Something is being worked at, in a few words.
-    Working {
-        /// What.
-        what: String,
-    },
-    /// A piece of work is done.
-    Advanced {
-        /// Its units of work.
-        work: f64,
-        /// Whether an earlier run had done it.
-        kept: bool,
-    },
-    /// A trial has its scores.
-    Scored {
-        /// The scene's slug.
-        scene: String,
-        /// The method's label.
-        method: String,
-        /// Samples a pixel.
-        spp: u32,
-        /// The root mean square error.
-        rmse: f64,
-    },
-}
 
 /// How a run ended, if not in an error.
 #[derive(Debug)]
@@ -91,21 +52,18 @@ pub enum RunError {
 /// # Errors
 /// If a texture cannot be loaded or results cannot be written. Textures that are files are read
 /// first, so that a bad one is told before any work is done.
-pub fn run(
-    spec: &Spec,
-    folder: &Path,
-    halt: &Halt,
-    watch: &mut dyn FnMut(RunEvent),
-) -> Result<Outcome, RunError> {
+///
+/// Only one run may work in a folder at a time: hold its [`super::lock::Lock`].
+pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<Outcome, RunError> {
     let start = Instant::now();
-    for texture in &spec.sweep.textures {
-        load(texture)
-            .map_err(|source| RunError::Texture { texture: texture.name.clone(), source })?;
-    }
+    let work = Work::of(spec, texels(spec)?);
     let mut stage = Stagehand::new(spec.seed, halt.clone());
+    let of_part = Arc::clone(watch);
+    stage.world.insert_resource(Watch(Arc::new(move |part| of_part(RunEvent::Partly { part }))));
     let plan = author(spec, &mut stage);
     let store = Store::open(folder, &keys::common(spec))?;
-    let mut run = Run { spec, plan: &plan, store: &store, stage: &mut stage, watch };
+    let mut run =
+        Run { spec, plan: &plan, store: &store, stage: &mut stage, watch, work, left: 0.0 };
     run.announce();
     for scene in &plan.scenes {
         if !run.scene(scene)? {
@@ -120,35 +78,61 @@ pub fn run(
     Ok(Outcome::Finished(Box::new(collect(spec, &plan, &store, &mut stage, costs))))
 }
 
+/// The texels of each texture, once it is known that it can be had.
+fn texels(spec: &Spec) -> Result<Vec<f64>, RunError> {
+    let count = |texture: &TextureSpec| match load(texture) {
+        Ok(bumps) => Ok((bumps.normals.width() * bumps.normals.height()) as f64),
+        Err(source) => Err(RunError::Texture { texture: texture.name.clone(), source }),
+    };
+    spec.sweep.textures.iter().map(count).collect()
+}
+
 /// A run under way.
 struct Run<'a> {
     spec: &'a Spec,
     plan: &'a Plan,
     store: &'a Store,
     stage: &'a mut Stagehand,
-    watch: &'a mut dyn FnMut(RunEvent),
+    watch: &'a Watcher,
+    work: Work,
+    /// Work of the current scene that nothing has been told of yet.
+    left: f64,
 }
 
 impl Run<'_> {
     fn announce(&mut self) {
         let scenes = &self.plan.scenes;
-        let work = scenes.iter().map(|scene| self.work_of_scene(scene)).sum();
+        let work = self.work.all(self.plan);
         let trials = scenes.iter().map(|scene| scene.trials.len()).sum();
         (self.watch)(RunEvent::Started { work, scenes: scenes.len(), trials });
+    }
+
+    /// Tells that a piece of the current scene is done.
+    fn advance(&mut self, work: f64, kept: bool) {
+        self.left -= work;
+        (self.watch)(RunEvent::Advanced { work, kept });
     }
 
     /// Works at one scene until it is done (true) or the run is halted (false).
     fn scene(&mut self, scene: &PlannedScene) -> Result<bool, RunError> {
         (self.watch)(RunEvent::Scene { slug: scene.slug.clone() });
+        self.left = self.work.scene(scene);
         self.take_up(scene);
         self.stage.world.insert_resource(Current(scene.entity));
-        if self.complete(scene) {
+        let done = self.complete(scene) || self.work_at(scene)?;
+        if done {
             self.let_go(scene);
-            return Ok(true);
+            // Trials that a method refused.
+            self.advance(self.left, true);
         }
+        Ok(done)
+    }
+
+    /// Works at what is pending of a scene until nothing is (true) or the run is halted (false).
+    fn work_at(&mut self, scene: &PlannedScene) -> Result<bool, RunError> {
         loop {
-            let what = self.next_piece(scene);
-            (self.watch)(RunEvent::Working { what });
+            let (what, work) = self.next_piece(scene);
+            (self.watch)(RunEvent::Working { what, work });
             let done = self.stage.tick();
             if let Some(source) = self.stage.world.resource_mut::<Failure>().0.take() {
                 let texture = self.spec.sweep.textures[scene.texture].name.clone();
@@ -161,11 +145,7 @@ impl Run<'_> {
                 self.keep(scene, &piece)?;
             }
         }
-        let halted = self.stage.world.resource::<Halt>().now();
-        if !halted {
-            self.let_go(scene);
-        }
-        Ok(!halted)
+        Ok(!self.stage.world.resource::<Halt>().now())
     }
 
     /// Puts into the world what an earlier run finished of this scene.
@@ -177,20 +157,18 @@ impl Run<'_> {
         if let Some((record, film)) = found {
             let converged = Converged { film, spp: record.spp, rmse: record.rmse };
             world.entity_mut(scene.entity).insert(ReferenceImage(Arc::new(converged)));
-            let work = self.reference_work();
-            (self.watch)(RunEvent::Advanced { work, kept: true });
+            self.advance(self.work.reference(), true);
         }
         for trial in &scene.trials {
             let name = keys::trial_name(self.spec, trial);
             let depends = keys::trial(self.spec, scene, trial);
             let found: Option<(TrialRecord, _)> = self.store.find_with_film(slug, &name, &depends);
             if let Some((record, film)) = found {
-                let exposure = Exposure { film: Arc::new(film), secs: record.secs };
+                let exposure = Exposure { film: Arc::new(film), cpu_secs: record.cpu_secs };
                 let scores = known_scores(&record.scores);
                 let world = &mut self.stage.world;
                 world.entity_mut(trial.entity).insert((exposure, scores));
-                let work = self.trial_work(trial);
-                (self.watch)(RunEvent::Advanced { work, kept: true });
+                self.advance(self.work.trial(trial), true);
             }
         }
     }
@@ -235,22 +213,18 @@ impl Run<'_> {
             Ok(_) => PrefilterRecord { cost: Some((cost.secs, cost.bytes)), refusal: None },
             Err(refusal) => PrefilterRecord { cost: None, refusal: Some(refusal.0.clone()) },
         };
-        let refused = record.refusal.is_some();
         let method = scene.prefilters.iter().position(|&p| p == entity).unwrap_or_default();
         let (folder, name) = keys::prefilter_name(self.spec, scene, method);
         let depends = keys::prefilter(self.spec, scene, method);
         self.store.keep(&folder, &name, &depends, &record)?;
-        if refused {
-            let of_method = scene.trials.iter().filter(|trial| trial.method == method);
-            let work = of_method.map(|trial| self.trial_work(trial)).sum();
-            (self.watch)(RunEvent::Advanced { work, kept: false });
-        }
+        // Prefilters are counted beside the scenes, which may share them.
+        let work = self.work.prefilter(scene, method);
+        (self.watch)(RunEvent::Advanced { work, kept: record.refusal.is_some() });
         Ok(())
     }
 
     fn keep_reference(&mut self, scene: &PlannedScene) -> Result<(), RunError> {
-        let work = self.reference_work() / f64::from(self.spec.reference.replicates);
-        (self.watch)(RunEvent::Advanced { work, kept: false });
+        self.advance(self.work.replicate(), false);
         let Some(image) = self.stage.world.get::<ReferenceImage>(scene.entity) else {
             return Ok(());
         };
@@ -276,13 +250,12 @@ impl Run<'_> {
         else {
             return Ok(());
         };
-        let record = TrialRecord { scores: named_scores(scores), secs: exposure.secs };
+        let record = TrialRecord { scores: named_scores(scores), cpu_secs: exposure.cpu_secs };
         let rmse = scores.0.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |s| s.1);
         let name = keys::trial_name(self.spec, trial);
         let depends = keys::trial(self.spec, scene, trial);
         self.store.keep_with_film(&scene.slug, &name, &depends, &record, &exposure.film)?;
-        let work = self.trial_work(trial);
-        (self.watch)(RunEvent::Advanced { work, kept: false });
+        self.advance(self.work.trial(trial), false);
         let method = self.spec.sweep.methods[trial.method].label.clone();
         let (scene, spp) = (scene.slug.clone(), trial.spp);
         (self.watch)(RunEvent::Scored { scene, method, spp, rmse });
@@ -298,57 +271,47 @@ impl Run<'_> {
 
     /// Lets go of what no later scene needs: the maps of the texture after its last scene.
     fn let_go(&mut self, scene: &PlannedScene) {
-        let is_last = self
-            .plan
-            .scenes
-            .iter()
-            .rfind(|other| other.prefilters == scene.prefilters)
-            .is_some_and(|other| other.entity == scene.entity);
-        if is_last {
-            for &prefilter in &scene.prefilters {
+        if !self.plan.is_last_of_its_prefilters(scene) {
+            return;
+        }
+        for (method, &prefilter) in scene.prefilters.iter().enumerate() {
+            match self.stage.world.get::<Prefilter>(prefilter) {
+                Some(built) if built.0.is_ok() => {
+                    self.stage.world.entity_mut(prefilter).remove::<Prefilter>();
+                }
                 // A refusal is small and is reported; a map is neither.
-                let world = &mut self.stage.world;
-                let built = world.get::<Prefilter>(prefilter).is_some_and(|p| p.0.is_ok());
-                if built {
-                    world.entity_mut(prefilter).remove::<Prefilter>();
+                Some(_) => {}
+                // All its scenes were taken up: nothing asked for it.
+                None => {
+                    let work = self.work.prefilter(scene, method);
+                    (self.watch)(RunEvent::Advanced { work, kept: true });
                 }
             }
         }
     }
 
-    /// What the next tick will begin with, in a few words.
-    fn next_piece(&self, scene: &PlannedScene) -> String {
+    /// What the next tick will begin with, in a few words, and its work.
+    fn next_piece(&self, scene: &PlannedScene) -> (String, f64) {
         let world = &self.stage.world;
-        let missing = |&&p: &&Entity| world.get::<Prefilter>(p).is_none();
-        if let Some(method) = scene.prefilters.iter().position(|p| missing(&p)) {
-            return format!("prefiltering for {}", self.spec.sweep.methods[method].label);
+        let missing = |&p: &Entity| world.get::<Prefilter>(p).is_none();
+        if let Some(method) = scene.prefilters.iter().position(missing) {
+            let what = format!("prefiltering for {}", self.spec.sweep.methods[method].label);
+            return (what, self.work.prefilter(scene, method));
         }
         if world.get::<ReferenceImage>(scene.entity).is_none() {
-            return "converging the reference".to_owned();
+            return ("converging the reference".to_owned(), self.work.replicate());
         }
-        let pending = |trial: &&PlannedTrial| world.get::<Exposure>(trial.entity).is_none();
+        let taken = |trial: &PlannedTrial| {
+            world.get::<Prefilter>(scene.prefilters[trial.method]).is_some_and(|p| p.0.is_ok())
+        };
+        let pending =
+            |trial: &&PlannedTrial| taken(trial) && world.get::<Exposure>(trial.entity).is_none();
         match scene.trials.iter().find(pending) {
             Some(trial) => {
                 let label = &self.spec.sweep.methods[trial.method].label;
-                format!("rendering {label} at {} spp", trial.spp)
+                (format!("rendering {label} at {} spp", trial.spp), self.work.trial(trial))
             }
-            None => "measuring".to_owned(),
+            None => ("measuring".to_owned(), 0.0),
         }
-    }
-
-    /// Work is counted in samples.
-    fn trial_work(&self, trial: &PlannedTrial) -> f64 {
-        // A filtered sample costs several bare ones, and an image has some cost of its own.
-        let image = &self.spec.image;
-        (image.width * image.height) as f64 * (4.0 + f64::from(trial.spp))
-    }
-
-    fn reference_work(&self) -> f64 {
-        let image = &self.spec.image;
-        (image.width * image.height) as f64 * f64::from(self.spec.reference.spp)
-    }
-
-    fn work_of_scene(&self, scene: &PlannedScene) -> f64 {
-        scene.trials.iter().map(|t| self.trial_work(t)).sum::<f64>() + self.reference_work()
     }
 }

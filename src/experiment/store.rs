@@ -55,8 +55,8 @@ pub struct ReferenceRecord {
 pub struct TrialRecord {
     /// Its scores.
     pub scores: Vec<Score>,
-    /// Wall-clock seconds of its rendering.
-    pub secs: f64,
+    /// CPU seconds of its rendering.
+    pub cpu_secs: f64,
 }
 
 /// A prefilter as a record: what it cost, or why it was refused.

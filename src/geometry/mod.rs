@@ -4,10 +4,12 @@
 pub mod elementary;
 mod frame;
 mod hemisphere;
+mod quad;
 mod simd;
 
 pub use frame::Frame;
 pub use hemisphere::{HemisphereGrid, Sample};
+pub use quad::Quad;
 pub use simd::{Kernel, vectorised};
 
 /// A vector or point in double precision; which space it lives in is said where it is used.

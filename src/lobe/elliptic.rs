@@ -3,7 +3,7 @@
 use std::f32::consts::{PI, TAU};
 
 use super::vector::{Sym2, V3, dot, invert, quadratic, tangents, unit};
-use super::{Facet, Spread};
+use super::{Facet, Spread, vector};
 use crate::geometry::elementary::{exp32, ln_1p32};
 
 /// How density falls with q = xᵀ M⁻¹ x, where x is the slope of h about the lobe's axis and M the
@@ -114,6 +114,6 @@ impl Spread for EllipticLobe {
         let axis =
             unit([0, 1, 2].map(|c| self.pole[c] + x * self.tangent[c] + y * self.bitangent[c]));
         let (tangent, bitangent) = tangents(axis);
-        Facet { axis, tangent, bitangent, alpha_squared: self.spread.map(|m| scale * m), ggx }
+        Facet { axis, tangent, bitangent, alpha_squared: vector::times(self.spread, scale), ggx }
     }
 }

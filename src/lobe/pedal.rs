@@ -1,7 +1,7 @@
 //! Schilling's modified Blinn-Phong lobe, as printed.
 
 use super::vector::{Sym2, V3, dot, quadratic, tangents, unit};
-use super::{Facet, Spread};
+use super::{Facet, Spread, vector};
 use crate::geometry::elementary::{exp32, ln_1p32};
 
 /// amplitude · cosᵐ α′ with cos²α′ = cos²α / (d⁴/q + cos²α), q = dᵀ K d (Schilling 1997, appendix A).
@@ -32,7 +32,7 @@ impl PedalLobe {
     pub fn new(axis: V3, covariance: Sym2, amplitude: f32, exponent: f32) -> Self {
         let axis = unit(axis);
         let (tangent, bitangent) = tangents(axis);
-        let roughness = covariance.map(|k| k * exponent);
+        let roughness = vector::times(covariance, exponent);
         Self { axis, tangent, bitangent, roughness, amplitude, exponent }
     }
 
@@ -64,7 +64,7 @@ impl Spread for PedalLobe {
             axis: self.axis,
             tangent: self.tangent,
             bitangent: self.bitangent,
-            alpha_squared: self.roughness.map(|k| scale * k),
+            alpha_squared: vector::times(self.roughness, scale),
             ggx: false,
         }
     }

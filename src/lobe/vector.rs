@@ -53,6 +53,12 @@ pub fn tangents(axis: V3) -> (V3, V3) {
 /// A symmetric 2×2 matrix (a b; b c) as [a, b, c].
 pub type Sym2 = [f32; 3];
 
+/// M · s
+#[inline(always)]
+pub fn times(m: Sym2, s: f32) -> Sym2 {
+    [m[0] * s, m[1] * s, m[2] * s]
+}
+
 /// xᵀ M x
 #[inline(always)]
 pub fn quadratic(m: Sym2, x: f32, y: f32) -> f32 {

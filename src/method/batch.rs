@@ -1,5 +1,6 @@
 //! Many shading points at once, in structure-of-arrays form.
 
+use crate::lobe::vector::V3;
 use crate::texture::Footprint;
 
 /// Lanes in a batch: a few kilobytes an axis, so that a batch stays in the first-level cache.
@@ -56,5 +57,23 @@ impl Batch {
     pub fn footprint(&self, i: usize) -> Footprint {
         let [ux, vx, uy, vy] = &self.jacobian;
         Footprint { u: self.u[i], v: self.v[i], along_x: [ux[i], vx[i]], along_y: [uy[i], vy[i]] }
+    }
+
+    /// Direction of lane `i`'s half vector.
+    #[inline(always)]
+    pub fn half(&self, i: usize) -> V3 {
+        [self.half[0][i], self.half[1][i], self.half[2][i]]
+    }
+
+    /// Unit direction from lane `i` to the light.
+    #[inline(always)]
+    pub fn light(&self, i: usize) -> V3 {
+        [self.light[0][i], self.light[1][i], self.light[2][i]]
+    }
+
+    /// Unit direction from lane `i` to the eye.
+    #[inline(always)]
+    pub fn view(&self, i: usize) -> V3 {
+        [self.view[0][i], self.view[1][i], self.view[2][i]]
     }
 }

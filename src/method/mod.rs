@@ -7,10 +7,12 @@
 mod averaged;
 mod batch;
 pub mod fournier;
+mod lean;
 mod olano_north;
 mod one_lobe;
 mod registry;
 mod schilling;
+mod toksvig;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
@@ -32,8 +34,9 @@ pub struct Card {
     pub formula: &'static str,
     /// What it cannot do.
     pub limits: &'static str,
-    /// Whether its lobes keep the energy of the footprint (see [`crate::lobe`]); false for forms
-    /// printed without a normalisation.
+    /// Whether its lobes keep the energy of the normals they stand for, within `precision` (see
+    /// [`crate::lobe`]): those of the footprint, or, if it does not keep roughness, the one normal it
+    /// draws. False for forms printed without a normalisation.
     pub normalised: bool,
     /// Whether bumps that fall into one footprint widen its lobes.
     pub keeps_roughness: bool,
@@ -81,12 +84,18 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// What it is.
     fn card(&self) -> Card;
 
-    /// How near it comes to `base` where a footprint holds a single normal: the total variation
-    /// distance ½ ∫ |D − D_base| cos dω it claims to stay under (0 for exact, up to rounding).
+    /// How near it comes to `base` where a footprint holds a single normal, tilted by 45° or less: the
+    /// total variation distance ½ ∫ |D − D_base| cos dω it claims to stay under (0 for exact, up to rounding).
     ///
     /// # Errors
     /// A [`Refusal`] if it cannot take this base lobe at all.
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
+
+    /// A guess of the work of [`Method::prefilter`] a texel, in times of one unfiltered sample: it tells
+    /// how much of a long run is done.
+    fn prefilter_work(&self) -> f64 {
+        1.0
+    }
 
     /// Builds what is looked up while rendering. The map is shared, not copied.
     ///
@@ -132,8 +141,7 @@ pub fn shade_by_lobes<P: Prefiltered + ?Sized>(
     for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
         *out = if batch.irradiance[i] > 0.0 {
             let surface = prefiltered.lobes_at(&batch.footprint(i));
-            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
+            let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
             batch.irradiance[i] * surface.radiance(shading, half, light, view)
         } else {
             0.0

@@ -119,7 +119,11 @@ impl NineNumbers {
     fn encode(&self, [x, y, z, w]: Texel) -> [f32; 9] {
         let v = self.variance;
         let e2 = [x * x + v, x * y, x * z, y * y + v, y * z, z * z + v];
-        [x, y, z, e2[0], e2[1], e2[2], e2[3], e2[4], e2[5]].map(|m| w * m)
+        let mut moments = [x, y, z, e2[0], e2[1], e2[2], e2[3], e2[4], e2[5]];
+        for moment in &mut moments {
+            *moment *= w;
+        }
+        moments
     }
 
     /// S = E₂ − uᵀu. The weight needs no tenth number: normals are unit vectors, so the trace of E₂
@@ -207,7 +211,7 @@ impl OneLobe<9> for Printed {
     fn lobe(&self, channels: [f32; 9]) -> PearsonLobe {
         let Gaussian3 { weight, mean, covariance: s } = self.nine.gaussian(channels);
         let [xx, xy, xz, yy, yz, zz] = s;
-        let cofactors = [
+        let mut inverse = [
             yy * zz - yz * yz,
             xz * yz - xy * zz,
             xy * yz - xz * yy,
@@ -217,8 +221,10 @@ impl OneLobe<9> for Printed {
         ];
         let v = self.nine.variance;
         let smallest = 0.125 * v * v * v;
-        let determinant = (xx * cofactors[0] + xy * cofactors[1] + xz * cofactors[2]).max(smallest);
-        let inverse = cofactors.map(|c| c / determinant);
+        let determinant = (xx * inverse[0] + xy * inverse[1] + xz * inverse[2]).max(smallest);
+        for cofactor in &mut inverse {
+            *cofactor /= determinant;
+        }
         let amplitude = weight * self.unit_peak * (v * v * v / determinant).sqrt();
         let n = unit(mean);
         let across = 0.5 * (xx + yy + zz - between(s, n, n));

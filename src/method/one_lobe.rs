@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{BATCH, Batch, Lane, Prefiltered};
+use crate::geometry::{Kernel, vectorised};
 use crate::lobe::{BaseLobe, Lobe, MultipleSurface, Shading, Spread};
 use crate::texture::{Footprint, Moments, NormalMap, Pyramid};
 
@@ -28,8 +29,8 @@ impl<M: OneLobe<C>, const C: usize> OneLobeMap<M, C> {
         Self { map: Arc::clone(map), base: *base, pyramid: Pyramid::build(map, moments) }
     }
 
-    /// The lobe of the pyramid at a footprint, and how much of it counts: all from level 0 up, none
-    /// from level −1 down, where the unfiltered map takes over (one texel covers two pixels).
+    /// The averaged channels at a footprint of this level.
+    #[inline(always)]
     fn fetch(&self, at: &Footprint, level: f32) -> [f32; C] {
         self.pyramid.trilinear(&self.map, at.u, at.v, level)
     }
@@ -71,32 +72,51 @@ impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
     }
 
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        match shading {
+            Shading::Ndf => vectorised(Shade::<M, C, false> { of: self, batch, radiance }),
+            Shading::Microfacet => vectorised(Shade::<M, C, true> { of: self, batch, radiance }),
+        }
+    }
+}
+
+/// The kernel: moments fetched lane by lane, then lobes as vector code.
+struct Shade<'a, M, const C: usize, const MICROFACET: bool> {
+    of: &'a OneLobeMap<M, C>,
+    batch: &'a Batch,
+    radiance: &'a mut Lane,
+}
+
+impl<M: OneLobe<C>, const C: usize, const MICROFACET: bool> Kernel for Shade<'_, M, C, MICROFACET> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { of, batch, radiance } = self;
+        let shading = if MICROFACET { Shading::Microfacet } else { Shading::Ndf };
         let mut channels = [[0.0; BATCH]; C];
         let mut share = [1.0; BATCH];
         for i in 0..batch.len {
             let at = batch.footprint(i);
-            let level = at.level(self.map.width(), self.map.height());
+            let level = at.level(of.map.width(), of.map.height());
             share[i] = filtered_share(level);
-            let fetched = self.fetch(&at, level);
+            let fetched = of.fetch(&at, level);
             for c in 0..C {
                 channels[c][i] = fetched[c];
             }
         }
-        // One loop over lanes without branches: the compiler makes it vector code.
-        for i in 0..batch.len {
-            let lobe = self.pyramid.moments().lobe(std::array::from_fn(|c| channels[c][i]));
-            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
-            radiance[i] = batch.irradiance[i] * lobe.radiance(shading, half, light, view);
-        }
-        for i in 0..batch.len {
-            if share[i] < 1.0 {
-                let lobe = unfiltered_lobe(&self.map, &self.base, batch.u[i], batch.v[i]);
-                let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                    .map(|axis| [axis[0][i], axis[1][i], axis[2][i]]);
-                let bare = batch.irradiance[i] * lobe.radiance(shading, half, light, view);
-                radiance[i] = share[i] * radiance[i] + (1.0 - share[i]) * bare;
+        // The whole width, and no branches: the compiler makes it vector code.
+        for i in 0..BATCH {
+            let mut moments = [0.0; C];
+            for c in 0..C {
+                moments[c] = channels[c][i];
             }
+            let lobe = of.pyramid.moments().lobe(moments);
+            radiance[i] = batch.irradiance[i]
+                * lobe.radiance(shading, batch.half(i), batch.light(i), batch.view(i));
+        }
+        for i in (0..batch.len).filter(|&i| share[i] < 1.0) {
+            let lobe = unfiltered_lobe(&of.map, &of.base, batch.u[i], batch.v[i]);
+            let bare = batch.irradiance[i]
+                * lobe.radiance(shading, batch.half(i), batch.light(i), batch.view(i));
+            radiance[i] = share[i] * radiance[i] + (1.0 - share[i]) * bare;
         }
     }
 }

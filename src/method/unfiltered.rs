@@ -126,12 +126,11 @@ impl<B: RoundLobe, const MICROFACET: bool, const REPEAT: bool> Kernel
         let [x, y, z, weight] = &normals;
         for i in 0..BATCH {
             let n = [x[i], y[i], z[i]];
-            let at = |axes: &[Lane; 3]| [axes[0][i], axes[1][i], axes[2][i]];
-            let half = at(&batch.half);
+            let half = batch.half(i);
             let density = self.base.density(tan_squared(n, half));
             let mut sent = batch.irradiance[i] * weight[i] * density;
             if MICROFACET {
-                sent *= self.base.geometry(n, at(&batch.light), at(&batch.view));
+                sent *= self.base.geometry(n, batch.light(i), batch.view(i));
             }
             radiance[i] = if dot(n, half) > 0.0 { sent } else { 0.0 };
         }

@@ -128,6 +128,17 @@ impl Halt {
     }
 }
 
+/// Told how far the long piece of work under way is, from 0 to 1, from any thread.
+#[derive(Resource, Clone)]
+pub struct Watch(pub Arc<dyn Fn(f64) + Send + Sync>);
+
+impl Default for Watch {
+    /// Nobody watches.
+    fn default() -> Self {
+        Self(Arc::new(|_| {}))
+    }
+}
+
 /// Why the scene cannot go on; systems put the first such reason here and do nothing more.
 #[derive(Resource, Debug, Default)]
 pub struct Failure(pub Option<LoadError>);
@@ -181,6 +192,7 @@ impl Stagehand {
         world.insert_resource(Seed(seed));
         world.insert_resource(halt);
         world.insert_resource(Failure::default());
+        world.insert_resource(Watch::default());
         world.insert_resource(FallbackErrorHandler(report_system_error));
         world.init_resource::<Messages<Progress>>();
         let mut schedule = Schedule::default();

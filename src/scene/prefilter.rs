@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 
-use super::{Current, Halt, Map, Material, Progress, SceneOf, Stage};
+use super::{Current, Halt, Map, Material, Progress, SceneOf, Stage, Watch};
 use crate::method::{self, Method, PrefilterError, Prefiltered, Refusal};
 
 /// A filter strategy: a method with its options. Its label in the experiment is its [`Name`].
@@ -45,7 +45,7 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 fn build(
     mut commands: Commands,
     current: Res<Current>,
-    halt: Res<Halt>,
+    (halt, watch): (Res<Halt>, Res<Watch>),
     scenes: Query<&SceneOf>,
     maps: Query<&Map>,
     strategies: Query<&Strategy>,
@@ -64,8 +64,8 @@ fn build(
         return;
     };
     let start = Instant::now();
-    let watch = HaltWatch(&halt);
-    let built = match strategy.0.prefilter(&map.normals, &material.base, &watch) {
+    let onlooker = Onlooker { halt: &halt, watch: &watch };
+    let built = match strategy.0.prefilter(&map.normals, &material.base, &onlooker) {
         Ok(prefiltered) => Ok(Arc::from(prefiltered)),
         Err(PrefilterError::Refused(refusal)) => Err(refusal),
         Err(PrefilterError::Cancelled) => return,
@@ -76,11 +76,18 @@ fn build(
     progress.write(Progress::Prefiltered { prefilter: entity });
 }
 
-/// Lets a prefilter see that it should stop.
-struct HaltWatch<'a>(&'a Halt);
+/// Hears how far a prefilter is, and lets it see that it should stop.
+struct Onlooker<'a> {
+    halt: &'a Halt,
+    watch: &'a Watch,
+}
 
-impl method::Progress for HaltWatch<'_> {
+impl method::Progress for Onlooker<'_> {
+    fn advance(&self, done: usize, total: usize) {
+        (self.watch.0)(done as f64 / total as f64);
+    }
+
     fn cancelled(&self) -> bool {
-        self.0.now()
+        self.halt.now()
     }
 }

@@ -30,8 +30,8 @@ pub struct Spp(pub u32);
 pub struct Exposure {
     /// The image.
     pub film: Arc<Film>,
-    /// Wall-clock seconds it took.
-    pub secs: f64,
+    /// CPU seconds it took: wall-clock time × threads.
+    pub cpu_secs: f64,
 }
 
 pub(super) fn plugin(schedule: &mut Schedule) {
@@ -128,8 +128,8 @@ fn expose(
     let (sampler, start) = (PixelSampler::new(spp), Instant::now());
     let stop = || halt.now();
     if let Ok(film) = render(&staged.view, map.as_ref(), &sampler, seed.0, 0, &stop) {
-        let secs = start.elapsed().as_secs_f64();
-        commands.entity(trial).insert(Exposure { film: Arc::new(film), secs });
+        let cpu_secs = start.elapsed().as_secs_f64() * rayon::current_num_threads() as f64;
+        commands.entity(trial).insert(Exposure { film: Arc::new(film), cpu_secs });
         progress.write(Progress::Rendered { trial });
     }
 }

@@ -3,13 +3,14 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{Hit, Surface};
+use crate::geometry::elementary::atan2_64;
 use crate::geometry::{Frame, Vec3};
 
 /// The unit sphere about the origin in spherical coordinates, its poles on the z axis.
 ///
 /// u grows eastwards with longitude, v northwards with latitude: u = longitude/2π · tiles round the
 /// equator, v = (latitude + π/2)/π · tiles from pole to pole. The tangent points east, the bitangent
-/// north. At the poles, where east has no meaning, some tangent is chosen.
+/// north. At the poles, where east has no meaning, the tangent is x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Tiles round the equator (whole, so that the seam closes) and from pole to pole.
@@ -32,6 +33,15 @@ impl Default for Sphere {
 /// Nearest the pole that ∇u is let grow: cos latitude ≥ 10⁻⁶ keeps footprints finite.
 const SMALLEST_RADIUS: f64 = 1e-6;
 
+/// The frame at a point of the sphere `radius` from the axis; at a pole the tangent is x.
+#[inline(always)]
+fn eastward(point: Vec3, radius: f64) -> Frame {
+    let per = 1.0 / radius.max(f64::MIN_POSITIVE);
+    let east = Vec3::new(-point.y * per, point.x * per, 0.0);
+    let tangent = if radius > 0.0 { east } else { Vec3::x() };
+    Frame { tangent, bitangent: point.cross(&tangent), normal: point }
+}
+
 impl Surface for Sphere {
     #[inline(always)]
     fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
@@ -46,9 +56,9 @@ impl Surface for Sphere {
         let t = c / (-b + discriminant.max(0.0).sqrt());
         let point = (origin + direction * t).normalize();
         let radius = (point.x * point.x + point.y * point.y).sqrt();
-        let frame = Frame::new(point, Vec3::new(-point.y, point.x, 0.0));
-        let longitude = libm::atan2(point.y, point.x);
-        let latitude = libm::atan2(point.z, radius);
+        let frame = eastward(point, radius);
+        let longitude = atan2_64(point.y, point.x);
+        let latitude = atan2_64(point.z, radius);
         let [round, up] = [self.tiles[0] / TAU, self.tiles[1] / PI];
         let hit = Hit {
             t,

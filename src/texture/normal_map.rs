@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{HeightMap, Taps, Wrap};
+use crate::geometry::Quad;
 
 /// Smallest z a normal may have where a *slope* is asked of it. A slope is n_xy / n_z; a normal at or
 /// below the horizon has none, so slopes are held to 64 (a tilt of 89.1°).
@@ -141,7 +142,7 @@ impl NormalMap {
         }
     }
 
-    /// [`NormalMap::sample`] for `N` lanes at once, the result channel by channel. `REPEAT` must say
+    /// [`NormalMap::sample`] for `N` lanes (a multiple of 4) at once, the result channel by channel. `REPEAT` must say
     /// whether the map repeats; it is a constant so that the loop need not ask at every lane.
     #[inline(always)]
     #[allow(clippy::needless_range_loop, reason = "lanes run through several arrays at once")]
@@ -152,34 +153,44 @@ impl NormalMap {
         out: &mut [[f32; N]; 4],
     ) {
         let wrap = if REPEAT { Wrap::Repeat } else { Wrap::Clamp };
-        let mut corners = [[0u32; N]; 4];
         let (mut right, mut up) = ([0.0f32; N], [0.0f32; N]);
-        let nearest = self.interpolation == Interpolation::Nearest;
+        let mut corners = [[0u32; N]; 4];
         for i in 0..N {
             let across = wrap.taps(u[i], self.width);
             let along = wrap.taps(v[i], self.height);
-            let (low, high) = (along.first * self.width, along.second * self.width);
-            corners[0][i] = (low + across.first) as u32;
-            corners[1][i] = (low + across.second) as u32;
-            corners[2][i] = (high + across.first) as u32;
-            corners[3][i] = (high + across.second) as u32;
-            let step = |blend: f32| if blend < 0.5 { 0.0 } else { 1.0 };
-            right[i] = if nearest { step(across.blend) } else { across.blend };
-            up[i] = if nearest { step(along.blend) } else { along.blend };
+            let [low, high] = [along.first, along.second].map(|j| j as u32 * self.width as u32);
+            (right[i], up[i]) = (across.blend, along.blend);
+            corners[0][i] = low + across.first as u32;
+            corners[1][i] = low + across.second as u32;
+            corners[2][i] = high + across.first as u32;
+            corners[3][i] = high + across.second as u32;
         }
-        let mut texels = [[0.0f32; 4]; N];
-        for i in 0..N {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.texels[corners[k][i] as usize]);
-            for k in 0..4 {
-                let low = a[k] + right[i] * (b[k] - a[k]);
-                let high = c[k] + right[i] * (d[k] - c[k]);
-                texels[i][k] = low + up[i] * (high - low);
-            }
+        if self.interpolation == Interpolation::Nearest {
+            let step = |blend: &mut f32| *blend = if *blend < 0.5 { 0.0 } else { 1.0 };
+            right.iter_mut().for_each(step);
+            up.iter_mut().for_each(step);
         }
-        for i in 0..N {
-            for k in 0..4 {
-                out[k][i] = texels[i][k];
-            }
+        // One check for all, so that the loop below has none.
+        let last = corners.iter().flatten().fold(0, |last, &i| last.max(i));
+        assert!((last as usize) < self.texels.len(), "texel {last} is outside the map");
+        let lane = |i: usize| {
+            let at = |corner: usize| {
+                // SAFETY: no index is larger than `last`, which is inside.
+                #[expect(unsafe_code, reason = "checked once for all lanes, above")]
+                let texel = unsafe { self.texels.get_unchecked(corners[corner][i] as usize) };
+                Quad::from(*texel)
+            };
+            let low = Quad::lerp(at(0), at(1), right[i]);
+            Quad::lerp(low, Quad::lerp(at(2), at(3), right[i]), up[i])
+        };
+        let [x, y, z, w] = out;
+        for i in (0..N).step_by(4) {
+            // Written out: the compiler leaves `map` over an array as a call.
+            let [a, b, c, d] = Quad::transpose([lane(i), lane(i + 1), lane(i + 2), lane(i + 3)]);
+            a.store(&mut x[i..i + 4]);
+            b.store(&mut y[i..i + 4]);
+            c.store(&mut z[i..i + 4]);
+            d.store(&mut w[i..i + 4]);
         }
     }
 

@@ -42,8 +42,8 @@ impl Wrap {
     #[inline(always)]
     pub fn taps(self, coordinate: f32, size: usize) -> Taps {
         let position = coordinate * size as f32 - 0.5;
-        let below = floor32(position);
-        let (last, below_index) = (size as i32 - 1, below as i32);
+        let (below_index, below) = floor32(position);
+        let last = size as i32 - 1;
         let above_index = below_index + 1;
         let (first, second) = match self {
             Self::Repeat => (

@@ -30,6 +30,7 @@ pub use error::{SpecError, SpecErrors};
 pub use method::MethodSpec;
 pub use reference::ReferenceSpec;
 pub use scene::{CameraSpec, ImageSpec, LightSpec, Shape};
+pub(crate) use suggest::no_such;
 pub use sweep::{Scale, SweepSpec};
 pub use texture::{Reading, TextureSource, TextureSpec};
 

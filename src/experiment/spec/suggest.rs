@@ -12,6 +12,13 @@ pub(super) fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     })
 }
 
+/// A sentence: there is no `what` of this name, the nearest that there is, and all of them.
+pub(crate) fn no_such(what: &str, name: &str, names: &[&str]) -> String {
+    let hint =
+        nearest(name, names).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    format!("there is no {what} `{name}`{hint} (known: {})", names.join(", "))
+}
+
 /// "a", "a or b", "a, b or c".
 pub(super) fn any_of(names: &[String]) -> String {
     joined(names, "or")
@@ -43,6 +50,17 @@ mod tests {
         assert_eq!(nearest("GGX", &names), Some("ggx"));
         assert_eq!(nearest("marble", &names), None);
         assert_eq!(nearest("", &names), None);
+    }
+
+    #[test]
+    fn what_there_is_not_comes_with_what_there_is() {
+        let names = ["twill", "waves"];
+        let near = "there is no pattern `twil`; did you mean `twill`? (known: twill, waves)";
+        assert_eq!(no_such("pattern", "twil", &names), near);
+        assert_eq!(
+            no_such("pattern", "x", &names),
+            "there is no pattern `x` (known: twill, waves)"
+        );
     }
 
     #[test]

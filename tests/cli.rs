@@ -1,0 +1,280 @@
+//! The command line: exit codes, messages, what scripts read.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Output, Stdio};
+
+use common::{output, repository, wrinkle};
+use serde_json::Value;
+
+/// A spec that runs in no time.
+const TINY: &str = r#"
+[image]
+width = 8
+height = 6
+[reference]
+spp = 4
+replicates = 2
+[sweep]
+texture = ["t"]
+method = ["averaged"]
+spp = [1]
+texels_per_pixel = [2.0]
+[texture.t]
+pattern = "waves"
+width = 8
+height = 8
+"#;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("tiny.toml"), TINY).unwrap();
+    folder
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Runs it, expects this exit code and nothing on standard output, and gives the message.
+fn refused(folder: &Path, args: &[&str], code: i32) -> String {
+    let output = output(folder, args);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {}", err(&output));
+    assert_eq!(out(&output), "", "{args:?}");
+    let message = err(&output);
+    assert!(message.starts_with("error: "), "{message}");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+#[test]
+fn help_is_the_manual() {
+    let help = |args: &[&str]| out(&output(repository(), args));
+    insta::assert_snapshot!("help", help(&["--help"]));
+    for command in ["run", "list", "render", "compare"] {
+        let text = help(&[command, "--help"]);
+        assert!(text.contains("Examples:"), "{command} has no example");
+        insta::assert_snapshot!(format!("help_{command}"), text);
+    }
+}
+
+#[test]
+fn without_arguments_it_helps() {
+    let output = output(repository(), &[]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(out(&output).contains("Usage: wrinkle"));
+}
+
+#[test]
+fn a_run_tells_its_answer_or_its_json() {
+    let folder = folder();
+    let done = output(folder.path(), &["run", "tiny.toml"]);
+    assert_eq!((done.status.code(), err(&done)), (Some(0), String::new()));
+    let said = out(&done);
+    assert!(said.starts_with("tiny: 1 trial of 1 scene in "), "{said}");
+    assert!(said.ends_with("Report: reports/tiny/report.html\n"), "{said}");
+    assert!(!said.contains('\u{1b}'), "no colour where nobody sees it");
+
+    let done = output(folder.path(), &["run", "tiny.toml", "--json"]);
+    let json: Value = serde_json::from_slice(&done.stdout).expect("JSON and nothing else");
+    let experiment = &json["experiments"][0];
+    assert_eq!(experiment["name"], "tiny");
+    assert_eq!((&experiment["scenes"], &experiment["trials"]), (&1.into(), &1.into()));
+    assert!(experiment["seconds"].is_f64());
+    for file in experiment["files"].as_array().unwrap() {
+        assert!(folder.path().join(file.as_str().unwrap()).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn experiments_that_are_not_there_are_named_with_the_nearest() {
+    let message = refused(repository(), &["run", "quik", "nosuch"], 2);
+    assert!(message.contains("no experiment `quik`; did you mean `quick`? (known: "), "{message}");
+    assert!(message.contains("no experiment `nosuch` (known: "), "{message}");
+    let message = refused(repository(), &["run", "no/such.toml"], 2);
+    assert_eq!(message, "error: there is no experiment file no/such.toml\n");
+    let message = refused(folder().path(), &["run", "quick"], 2);
+    assert!(message.contains("no folder experiments/"), "{message}");
+    let message = refused(repository(), &["run", "quick", "experiments/quick.toml"], 2);
+    assert!(message.contains("two experiments are named `quick`"), "{message}");
+}
+
+#[test]
+fn every_error_of_a_spec_is_told_and_nothing_is_written() {
+    let folder = folder();
+    let wrong = TINY.replace("width = 8\nheight = 6", "widht = 8\nheight = -6");
+    fs::write(folder.path().join("wrong.toml"), wrong).unwrap();
+    let message = refused(folder.path(), &["run", "tiny.toml", "wrong.toml"], 2);
+    assert!(message.starts_with("error: wrong.toml:3:1: unknown key `widht`"), "{message}");
+    assert!(message.contains("wrong.toml:4:10: ") && message.contains("2 errors"), "{message}");
+    assert!(!folder.path().join("reports").exists());
+}
+
+#[test]
+fn a_bad_texture_file_is_named_before_any_work() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let png = fs::read(repository().join("data/bricks.png")).unwrap();
+    fs::write(at("cut.png"), &png[..2000]).unwrap();
+    fs::write(at("empty.png"), b"").unwrap();
+    fs::write(at("text.png"), b"not a picture").unwrap();
+    for (file, why) in [("cut", "cut short"), ("empty", "is empty"), ("text", "not an image")] {
+        let spec = TINY.replace("pattern = \"waves\"\nwidth = 8\nheight = 8", "");
+        fs::write(at("bad.toml"), format!("{spec}\nfile = \"{file}.png\"\n")).unwrap();
+        let message = refused(folder.path(), &["run", "bad.toml"], 2);
+        assert!(message.contains(&format!("{file}.png: ")) && message.contains(why), "{message}");
+        let name = format!("{file}.png");
+        let message = refused(folder.path(), &["render", &name, "--out", "o.png"], 2);
+        assert!(message.contains(why), "{message}");
+        assert!(!at("o.png").exists());
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let folder = folder();
+    fs::write(folder.path().join("file"), b"").unwrap();
+    let message = refused(folder.path(), &["run", "tiny.toml", "--out", "file"], 1);
+    assert!(message.contains("cannot write file/tiny"), "{message}");
+    assert!(message.contains("--out"), "{message}");
+}
+
+#[test]
+fn two_runs_do_not_share_a_folder() {
+    let folder = folder();
+    let results = folder.path().join("reports/tiny");
+    let held = wrinkle::experiment::lock::Lock::take(&results).unwrap();
+    let message = refused(folder.path(), &["run", "tiny.toml"], 1);
+    assert!(message.contains("another run is writing to reports/tiny"), "{message}");
+    drop(held);
+    assert!(output(folder.path(), &["run", "tiny.toml"]).status.success());
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let folder = folder();
+    for args in [
+        ["run", "tiny.toml", "--threads", "0"],
+        ["run", "tiny.toml", "--threads", "abc"],
+        ["render", "tiny.toml", "--out=o.png", "--spp=0"],
+        ["render", "tiny.toml", "--out=o.png", "--size=8y6"],
+        ["render", "tiny.toml", "--out=o.png", "--exposure=-1"],
+        ["render", "tiny.toml", "--out=o.png", "--exposure=nan"],
+        ["render", "tiny.toml", "--out=o.png", "--texels-per-pixel=-3"],
+        ["render", "tiny.toml", "--out=o.png", "--texels-per-pixel=nan"],
+        ["render", "tiny.toml", "--out=o.png", "--height-scale=nan"],
+    ] {
+        refused(folder.path(), &args, 2);
+    }
+}
+
+#[test]
+fn render_writes_the_image_and_names_it() {
+    let folder = folder();
+    for name in ["o.png", "o.exr"] {
+        let done = output(folder.path(), &["render", "tiny.toml", "--out", name]);
+        assert_eq!((done.status.code(), out(&done)), (Some(0), format!("{name}\n")));
+        assert!(folder.path().join(name).is_file());
+    }
+    // A map of the user's own, through the slowest filter.
+    let map = repository().join("data/bricks.png");
+    image::open(&map).unwrap().crop_imm(3, 5, 5, 3).save(folder.path().join("odd.png")).unwrap();
+    let args = ["render", "odd.png", "--method", "fournier", "--size", "9x7", "--out", "o.png"];
+    assert!(output(folder.path(), &args).status.success());
+    let picture = image::open(folder.path().join("o.png")).unwrap();
+    assert_eq!((picture.width(), picture.height()), (9, 7));
+}
+
+#[test]
+fn render_tells_what_there_is_instead() {
+    let folder = folder();
+    let render = |args: &[&str]| {
+        let all = [&["render", "tiny.toml", "--out", "o.png"], args].concat();
+        refused(folder.path(), &all, 2)
+    };
+    let message = render(&["--method", "fournir"]);
+    assert!(message.contains("did you mean `fournier`? (known: unfiltered, "), "{message}");
+    let message = render(&["--texture", "tt"]);
+    assert!(message.contains("no texture `tt`; did you mean `t`? (known: t)"), "{message}");
+    let wrong_out = |out: &str| refused(folder.path(), &["render", "tiny.toml", "--out", out], 2);
+    assert!(wrong_out("o.jpg").contains("name it .png or .exr"));
+    assert!(wrong_out("no/o.png").contains("there is no folder no"));
+    let message = refused(folder.path(), &["render", "no.png", "--out", "o.png"], 2);
+    assert_eq!(message, "error: there is no file no.png\n");
+}
+
+#[test]
+fn compare_scores_and_holds_to_limits() {
+    let folder = folder();
+    for (method, name) in [("averaged", "a.exr"), ("unfiltered", "b.exr"), ("averaged", "a.png")] {
+        let args = ["render", "tiny.toml", "--method", method, "--out", name];
+        assert!(output(folder.path(), &args).status.success());
+    }
+    let compare = |args: &[&str]| output(folder.path(), &[&["compare"], args].concat());
+    let same = compare(&["a.exr", "a.exr", "--json", "--fail-above", "rmse=0"]);
+    assert_eq!(same.status.code(), Some(0));
+    let scores: Value = serde_json::from_slice(&same.stdout).unwrap();
+    assert_eq!((&scores["rmse"], &scores["energy"]), (&0.0.into(), &1.0.into()));
+    let differ = compare(&["b.exr", "a.exr", "--fail-above", "rmse=0", "--fail-above", "ssim=2"]);
+    assert_eq!((differ.status.code(), err(&differ).as_str()), (Some(1), "rmse is above 0\n"));
+    assert!(out(&differ).starts_with("rmse "));
+
+    let wrong = |args: &[&str]| refused(folder.path(), &[&["compare"], args].concat(), 2);
+    assert!(wrong(&["a.exr", "a.png"]).contains("compare like with like"));
+    assert!(wrong(&["a.exr", "no.exr"]).contains("no.exr: cannot read"));
+    assert!(wrong(&["a.exr", "tiny.toml"]).contains("tiny.toml: "));
+    let message = wrong(&["a.exr", "a.exr", "--fail-above", "rms=1"]);
+    assert!(message.contains("no metric `rms`; did you mean `rmse`?"), "{message}");
+    let size = ["render", "tiny.toml", "--size", "9x7", "--out", "big.exr"];
+    assert!(output(folder.path(), &size).status.success());
+    assert!(wrong(&["a.exr", "big.exr"]).contains("8 × 6 pixels"));
+}
+
+#[test]
+fn list_knows_everything_by_name() {
+    let text = out(&output(repository(), &["list"]));
+    let json: Value =
+        serde_json::from_slice(&output(repository(), &["list", "--json"]).stdout).unwrap();
+    for kind in ["methods", "patterns", "surfaces"] {
+        for entry in json[kind].as_array().unwrap() {
+            assert!(text.contains(entry["name"].as_str().unwrap()), "{entry}");
+            assert!(!entry["summary"].as_str().unwrap().is_empty(), "{entry}");
+        }
+    }
+    assert!(json["experiments"].as_array().unwrap().contains(&"quick".into()));
+}
+
+#[test]
+fn colour_is_for_those_who_want_it() {
+    let says = |variable: &str| {
+        let mut list = wrinkle(repository(), &["list"]);
+        out(&list.env(variable, "1").output().unwrap())
+    };
+    assert!(says("CLICOLOR_FORCE").contains('\u{1b}'));
+    assert!(!says("NO_COLOR").contains('\u{1b}'));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_early_is_no_failure() {
+    let mut list = wrinkle(repository(), &["list", "--json"]);
+    let mut list = list.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(list.stdout.take());
+    let done = list.wait_with_output().unwrap();
+    assert_eq!((done.status.code(), err(&done)), (Some(0), String::new()));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_a_failure() {
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let done = wrinkle(repository(), &["list"]).stdout(full).output().unwrap();
+    assert_eq!(done.status.code(), Some(1));
+    assert!(err(&done).starts_with("error: cannot write to standard output"), "{}", err(&done));
+}

@@ -1,0 +1,13 @@
+//! What every registered method must satisfy, whatever it is: a new line in the registry is tested
+//! without a line here. Each file holds one property.
+#![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
+
+mod base;
+mod bumps;
+mod energy;
+mod fixture;
+mod flat;
+mod kernels;
+mod magnified;
+mod rotation;
+mod soundness;

@@ -1,0 +1,206 @@
+//! The same experiment gives the same bytes: at any number of threads, after any interruption, after
+//! damage, and in any build of the program.
+
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+use std::time::Duration;
+
+use common::{assert_same, output, repository, wrinkle};
+
+/// Small, but long enough to be interrupted: two textures, a fit, a lobe that it refuses.
+const EXPERIMENT: &str = r#"
+seed = 7
+[image]
+width = 40
+height = 30
+[reference]
+spp = 256
+[sweep]
+texture = ["weave", "hills"]
+method = ["unfiltered", "fournier", "schilling-anisotropic"]
+spp = [1, 4]
+texels_per_pixel = [3.0]
+lobe = [{ lobe = "blinn-phong", exponent = 40.0 }, { lobe = "ggx", alpha = 0.3 }]
+[texture.weave]
+pattern = "twill"
+width = 16
+height = 16
+[texture.hills]
+pattern = "gaussian"
+width = 24
+height = 16
+"#;
+
+/// A folder with the experiment, and where its results go.
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("trial.toml"), EXPERIMENT).unwrap();
+        Self { folder }
+    }
+
+    fn results(&self, out: &str) -> PathBuf {
+        self.folder.path().join(out).join("trial")
+    }
+
+    /// Runs the experiment to its end; where the results are.
+    fn run(&self, out: &str, more: &[&str]) -> PathBuf {
+        let args = [&["run", "trial.toml", "--out", out], more].concat();
+        let done = output(self.folder.path(), &args);
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        self.results(out)
+    }
+
+    /// Starts the experiment and sends it a signal when its first trial is kept. The exit code, and
+    /// what it said.
+    fn interrupt(&self, out: &str, signal: &str) -> (Option<i32>, String) {
+        let args = ["run", "trial.toml", "--out", out];
+        let mut run = wrinkle(self.folder.path(), &args);
+        let mut run = run.stderr(std::process::Stdio::piped()).spawn().unwrap();
+        let state = self.results(out).join(".state");
+        while trials_kept(&state) == 0 {
+            assert!(run.try_wait().unwrap().is_none(), "it ended before it kept a trial");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        let id = run.id().to_string();
+        assert!(Command::new("kill").args([signal, &id]).status().unwrap().success());
+        let ended = run.wait_with_output().unwrap();
+        (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
+    }
+}
+
+/// The results of a run that nothing disturbed.
+static WHOLE: LazyLock<(Bench, PathBuf)> = LazyLock::new(|| {
+    let bench = Bench::new();
+    let results = bench.run("whole", &[]);
+    (bench, results)
+});
+
+fn whole() -> &'static Path {
+    &WHOLE.1
+}
+
+/// Records of trials under `.state`.
+fn trials_kept(state: &Path) -> usize {
+    files_under(state).iter().filter(|path| path.to_string_lossy().ends_with("spp.json")).count()
+}
+
+fn files_under(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(files_under(&path));
+        } else {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+/// When each file under a folder was last written.
+fn written(folder: &Path) -> Vec<(PathBuf, std::time::SystemTime)> {
+    let time = |path: &PathBuf| fs::metadata(path).unwrap().modified().unwrap();
+    files_under(folder).into_iter().map(|path| (path.clone(), time(&path))).collect()
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let bench = Bench::new();
+    for threads in ["1", "2", "8"] {
+        assert_same(whole(), &bench.run(threads, &["--threads", threads]));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_what_is_finished_and_goes_on() {
+    let bench = Bench::new();
+    let (code, said) = bench.interrupt("halted", "-INT");
+    assert_eq!(code, Some(130), "{said}");
+    assert!(said.contains("interrupted") && said.contains("the same command goes on"), "{said}");
+    let halted = bench.results("halted");
+    let kept = trials_kept(&halted.join(".state"));
+    assert!(kept < trials_kept(&whole().join(".state")), "it was halted in the middle");
+    let before = written(&halted.join("images"));
+    bench.run("halted", &[]);
+    assert_same(whole(), &halted);
+    let after = written(&halted.join("images"));
+    let untouched = before.iter().filter(|file| after.contains(file)).count();
+    assert_eq!(untouched, before.len(), "what was finished is not made again");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_run_goes_on() {
+    let bench = Bench::new();
+    let (code, _) = bench.interrupt("killed", "-KILL");
+    assert_eq!(code, None, "it was killed");
+    let killed = bench.results("killed");
+    // What a kill in the middle of a write leaves.
+    fs::write(killed.join("images/.writing-x"), b"half").unwrap();
+    bench.run("killed", &[]);
+    assert_same(whole(), &killed);
+}
+
+#[test]
+fn what_is_damaged_is_made_again_and_nothing_else_is() {
+    let bench = Bench::new();
+    let hurt = bench.run("hurt", &[]);
+    let images = files_under(&hurt.join("images"));
+    let exr: Vec<_> = images.iter().filter(|p| p.extension().is_some_and(|e| e == "exr")).collect();
+    let records = files_under(&hurt.join(".state"));
+    let record = |end: &str| records.iter().find(|p| p.to_string_lossy().ends_with(end)).unwrap();
+    fs::write(exr[0], b"no image").unwrap();
+    fs::copy(exr[2], exr[1]).unwrap(); // A good image, but another's.
+    fs::remove_file(exr[3]).unwrap();
+    fs::write(record("4spp.json"), b"{\"digest\":").unwrap();
+    fs::write(record("probes.json"), b"").unwrap();
+    fs::remove_file(record("reference.json")).unwrap();
+    let before = written(&hurt.join("images"));
+    bench.run("hurt", &[]);
+    assert_same(whole(), &hurt);
+    let after = written(&hurt.join("images"));
+    let is_exr = |path: &Path| path.extension().is_some_and(|e| e == "exr");
+    let again = after.iter().filter(|file| is_exr(&file.0) && !before.contains(file)).count();
+    // One image may be hurt twice over.
+    assert!((4..=5).contains(&again), "{again} images were made again");
+}
+
+#[test]
+fn a_changed_experiment_takes_up_only_what_did_not_change() {
+    let bench = Bench::new();
+    let folder = bench.run("changed", &[]);
+    let changed = EXPERIMENT.replace("spp = [1, 4]", "spp = [1, 2]");
+    fs::write(bench.folder.path().join("trial.toml"), changed).unwrap();
+    let reference = |folder: &Path| {
+        let all = written(&folder.join("images"));
+        all.into_iter().filter(|f| f.0.ends_with("reference.exr")).collect::<Vec<_>>()
+    };
+    let before = reference(&folder);
+    let csv = |folder: &Path| fs::read(folder.join("metrics.csv")).unwrap();
+    bench.run("changed", &[]);
+    assert_eq!(reference(&folder), before);
+    assert!(csv(&folder) == csv(&bench.run("fresh", &[])));
+}
+
+/// The committed report was written by the release build; this is another.
+#[test]
+fn the_committed_report_is_what_this_build_writes() {
+    let committed = repository().join("reports/quick");
+    assert!(committed.is_dir(), "make it: cargo run --release -- run quick");
+    let out = tempfile::tempdir().unwrap();
+    let args = ["run", "quick", "--out", out.path().to_str().unwrap()];
+    let done = output(repository(), &args);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    assert_same(&committed, &out.path().join("quick"));
+}
