@@ -38,15 +38,14 @@ pub fn times(value: f64) -> String {
     }
 }
 
-/// A part of a whole, to two digits: `4.3 %`, `51 %`, `105 %`.
+/// A part of a whole, to two digits at least: `4.3 %`, `51 %`, `105 %`.
 pub fn percent(part: f64) -> String {
     let percent = 100.0 * part;
-    let text = if percent > 0.0 && percent < 9.95 {
-        format!("{percent:.1}")
+    if percent < 9.95 {
+        format!("{percent:.1}\u{a0}%")
     } else {
-        number(percent.round())
-    };
-    format!("{}\u{a0}%", text.trim_end_matches(".0"))
+        format!("{}\u{a0}%", number(percent.round()).trim_end_matches(".0"))
+    }
 }
 
 fn superscript(exponent: i32) -> String {
@@ -123,7 +122,7 @@ mod tests {
     #[test]
     fn percentages_have_two_digits_or_the_whole() {
         let texts = [0.0432, 0.513, 0.0951, 1.05, 0.0].map(percent);
-        assert_eq!(texts, ["4.3\u{a0}%", "51\u{a0}%", "9.5\u{a0}%", "105\u{a0}%", "0\u{a0}%"]);
+        assert_eq!(texts, ["4.3\u{a0}%", "51\u{a0}%", "9.5\u{a0}%", "105\u{a0}%", "0.0\u{a0}%"]);
     }
 
     #[test]
