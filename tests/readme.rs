@@ -41,5 +41,8 @@ fn the_readmes_experiment_can_be_read() {
     let text = std::fs::read_to_string("README.md").unwrap();
     let (_, rest) = text.split_once("```toml\n").unwrap();
     let (toml, _) = rest.split_once("```").unwrap();
-    Spec::parse(toml, Path::new("mine.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy("data/bricks.png", folder.path().join("my_normals.png")).unwrap();
+    let path = folder.path().join("mine.toml");
+    Spec::parse(toml, &path).unwrap_or_else(|error| panic!("{error}"));
 }

@@ -8,7 +8,7 @@ use super::results::{
     Costs, MethodInfo, Peak, Picture, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo,
     Results, SceneKey, SceneResult, Score, TextureInfo, TrialCost, TrialResult,
 };
-use super::spec::{Spec, TextureSource, TextureSpec};
+use super::spec::{Shape, Spec, TextureSource, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, Store};
 use crate::lobe::{Shading, Spread};
 use crate::method;
@@ -101,11 +101,11 @@ pub(super) fn collect(
 }
 
 fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
-    // The first probe is at the image's centre.
+    // A plane's tiling meets the wish to rounding. A sphere's is rounded to close its seam, and a moving
+    // camera has no wish: there the first probe tells, at the pixel beside the image's centre.
     let measured = probes.first().map_or(f64::NAN, |probe| probe.texels_across);
-    let texels_per_pixel = match scene.tiling {
-        // A plane meets the wish to rounding; a sphere rounds its tiling.
-        Tiling::TexelsPerPixel(wish) if (measured / wish - 1.0).abs() < 0.02 => wish,
+    let texels_per_pixel = match (spec.surface, scene.tiling) {
+        (Shape::Plane, Tiling::TexelsPerPixel(wish)) => wish,
         _ => (measured * 1e4).round() / 1e4,
     };
     SceneKey {

@@ -167,7 +167,8 @@ pub fn floor64(x: f64) -> f64 {
     if nearest > x { nearest - 1.0 } else { nearest }
 }
 
-/// The largest whole number at or below x, for |x| < 2²², as an integer and as a float. The integer is
+/// The largest whole number at or below x, for |x| < 2²², as an integer and as a float; some integer
+/// for any other x. The integer is
 /// read off the bits of a shifted sum: a cast would check for overflow lane by lane, which vector
 /// code cannot.
 #[inline(always)]
@@ -175,7 +176,7 @@ pub fn floor32(x: f32) -> (i32, f32) {
     let shifted = x + ROUND_32;
     let nearest = shifted - ROUND_32;
     let integer = (shifted.to_bits() as i32).wrapping_sub(ROUND_32.to_bits() as i32);
-    if nearest > x { (integer - 1, nearest - 1.0) } else { (integer, nearest) }
+    if nearest > x { (integer.wrapping_sub(1), nearest - 1.0) } else { (integer, nearest) }
 }
 
 #[cfg(test)]

@@ -38,17 +38,18 @@ impl Wrap {
     }
 
     /// The texels along an axis of `size` texels around a folded coordinate. Texel i has its centre
-    /// at (i + ½) / size.
+    /// at (i + ½) / size. Indices are inside whatever the coordinate is, NaN included: rays that miss
+    /// have no coordinates, and their lanes are looked up like any other.
     #[inline(always)]
     pub fn taps(self, coordinate: f32, size: usize) -> Taps {
         let position = coordinate * size as f32 - 0.5;
         let (below_index, below) = floor32(position);
         let last = size as i32 - 1;
-        let above_index = below_index + 1;
+        let above_index = below_index.wrapping_add(1);
         let (first, second) = match self {
             Self::Repeat => (
                 if below_index < 0 { last } else { below_index.min(last) },
-                if above_index > last { 0 } else { above_index },
+                if above_index > last { 0 } else { above_index.max(0) },
             ),
             Self::Clamp => (below_index.clamp(0, last), above_index.clamp(0, last)),
         };
@@ -104,6 +105,16 @@ mod tests {
                     w
                 };
                 assert!(weight_of(i) > 1.0 - 1e-5, "texel {i} of {size}: {taps:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_coordinate_leads_outside() {
+        for coordinate in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, -1e30, f32::MAX] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                let taps = wrap.taps(coordinate, 7);
+                assert!(taps.first < 7 && taps.second < 7, "{coordinate}: {taps:?}");
             }
         }
     }
