@@ -58,11 +58,16 @@ pub fn wins(comparison: &Comparison, label: &str) -> (usize, usize) {
     wins
 }
 
-/// The methods that came closest most often, ties counted after wins.
+/// The methods that were among the closest most often; of those, the ones most often alone. Ties count
+/// in full: two forms of one method tie wherever they are best, and neither is worse for it.
 fn leaders<'a>(comparison: &Comparison<'a>) -> Vec<&'a MethodInfo> {
+    let rank = |method: &&MethodInfo| {
+        let (alone, shared) = wins(comparison, &method.label);
+        (alone + shared, alone)
+    };
     let methods = || comparison.results.methods.iter();
-    let most = methods().map(|m| wins(comparison, &m.label)).max().unwrap_or_default();
-    methods().filter(|m| wins(comparison, &m.label) == most).collect()
+    let most = methods().map(|m| rank(&m)).max().unwrap_or_default();
+    methods().filter(|m| rank(m) == most).collect()
 }
 
 fn winner(comparison: &Comparison) -> String {
