@@ -1,7 +1,8 @@
-//! Files that appear whole or not at all.
+//! The folder of a report, filled file by file.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
+
+use crate::file::write_whole;
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -30,7 +31,7 @@ impl Folder {
         let path = self.root.join(name);
         let parent = path.parent().unwrap_or(&self.root);
         make(parent)?;
-        replace(parent, &path, bytes).map_err(|cause| ReportError { path: path.clone(), cause })?;
+        write_whole(&path, bytes).map_err(|cause| ReportError { path: path.clone(), cause })?;
         self.written.push(path);
         Ok(())
     }
@@ -43,23 +44,6 @@ impl Folder {
 
 fn make(folder: &Path) -> Result<(), ReportError> {
     std::fs::create_dir_all(folder).map_err(|cause| ReportError { path: folder.to_owned(), cause })
-}
-
-/// Writes beside, syncs, renames.
-fn replace(parent: &Path, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut beside = beside(parent)?;
-    beside.write_all(bytes)?;
-    beside.as_file().sync_all()?;
-    beside.persist(path).map_err(|error| error.error)?;
-    Ok(())
-}
-
-/// A temporary file with the rights that any new file would have, not the private ones of a secret.
-fn beside(parent: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.prefix(".writing-").tempfile_in(parent)
 }
 
 #[cfg(test)]
