@@ -8,6 +8,9 @@
 mod claim;
 mod exhibit;
 mod figure;
+mod fournier_1992;
+mod gather;
+mod paper;
 mod table;
 
 pub use claim::{Claim, Quantity, Verdict};
@@ -15,4 +18,6 @@ pub use exhibit::{Evidence, Exhibit, Timed};
 pub use figure::{
     Axis, Chart, Disc, Drawing, Field, Figure, Images, LobePlot, Panel, Reflection, Series,
 };
+pub use gather::{Findings, Gathered, gather};
+pub use paper::{FinishedPart, Halted, Paper, Row, Task, find, keys, papers};
 pub use table::{Cell, Table};
