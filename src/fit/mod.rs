@@ -10,6 +10,7 @@ mod greedy;
 mod independent;
 mod kernel;
 mod least_squares;
+mod mixture;
 mod peak;
 mod problem;
 #[cfg(test)]
@@ -21,6 +22,7 @@ mod tests;
 pub use distribution::{Directions, Distribution};
 pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, first_guess, fit, reconstruct};
 pub use least_squares::{LeastSquares, NormalEquations};
+pub use mixture::{Mixture, NormalBins, mixture};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;
 pub use solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};
