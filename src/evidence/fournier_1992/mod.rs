@@ -1,5 +1,13 @@
 //! Fournier 1992, Filtering Normal Maps and Creating Multiple Surfaces.
 
+mod f2;
+mod f3;
+mod images;
+mod n1;
+mod t0;
+mod t1;
+mod textures;
+
 use super::Paper;
 
 /// The paper.
@@ -7,5 +15,15 @@ pub const PAPER: Paper = Paper {
     name: "fournier-1992",
     citation: "Alain Fournier, Filtering Normal Maps and Creating Multiple Surfaces, University of \
                British Columbia, 1992",
-    rows: &[],
+    rows: &[
+        f2::ROW,
+        f3::ROW,
+        n1::ROW,
+        t0::ROW,
+        images::F4,
+        images::F5,
+        images::F6,
+        images::F7,
+        t1::ROW,
+    ],
 };
