@@ -105,6 +105,7 @@ impl Fournier {
             greedy: GreedyOptions {
                 max_peaks: values.whole("max_peaks"),
                 stop: values.number("stop"),
+                restarts: 0,
             },
             rings: values.whole("rings"),
             azimuths: values.whole("azimuths"),

@@ -6,6 +6,7 @@
 
 mod averaged;
 mod batch;
+mod constant;
 pub mod fournier;
 mod lean;
 mod olano_north;
@@ -16,6 +17,7 @@ mod toksvig;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
+pub use constant::Constant;
 pub use registry::{Entry, brute_force, build, entries, find};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
