@@ -60,23 +60,38 @@ pub const F7: Row = row(
 
 fn compare(row: &Row, task: &Task) -> Result<Exhibit, Halted> {
     let part = task.part(row.parts[0]);
-    let scene = &part.results.scenes[0];
     let mut exhibit = row.exhibit();
-    let shown = [("unfiltered", 1), ("fournier", 1), ("unfiltered", SUPERSAMPLES)];
-    let labels = ["unfiltered", "filtered", "supersampled"];
-    let converged = Panel::new("converged", "converged", Arc::clone(&scene.reference.film))
-        .remarked(format!("{} samples", scene.reference.spp));
-    let mut panels = vec![converged];
     let mut table = Table::new(
         "errors",
-        "Error against the converged image.",
-        &["image", "samples a pixel", "RMSE", "part of unfiltered's", "SSIM"],
+        "Error against the converged image, by the texels across the pixel in the middle of the image.",
+        &["texels a pixel", "image", "samples a pixel", "RMSE", "part of unfiltered's", "SSIM"],
     );
+    for scene in &part.results.scenes {
+        at_scale(scene, &part.results.title, &mut exhibit, &mut table);
+    }
+    exhibit.tables = vec![table];
+    Ok(exhibit)
+}
+
+/// The images of the paper: label, method, samples a pixel.
+const SHOWN: [(&str, &str, u32); 3] = [
+    ("unfiltered", "unfiltered", 1),
+    ("filtered", "fournier", 1),
+    ("supersampled", "unfiltered", SUPERSAMPLES),
+];
+
+/// One scene: how small the bumps were in the paper's images is not printed, so there are several.
+fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut Table) {
+    let texels = scene.key.texels_per_pixel;
+    let converged =
+        Panel::new(&format!("converged-{texels}"), "converged", Arc::clone(&scene.reference.film));
+    let mut panels = vec![converged.remarked(format!("{} samples a pixel", scene.reference.spp))];
     let first = rmse(trial(scene, "unfiltered", 1));
-    for ((method, spp), label) in shown.into_iter().zip(labels) {
+    for (label, method, spp) in SHOWN {
         let found = trial(scene, method, spp);
         let (error, ssim) = (rmse(found), found.score("ssim").unwrap_or(f64::NAN));
         table.push(vec![
+            texels.into(),
             label.into(),
             (spp as usize).into(),
             error.into(),
@@ -84,41 +99,42 @@ fn compare(row: &Row, task: &Task) -> Result<Exhibit, Halted> {
             ssim.into(),
         ]);
         let remark = format!("{spp} sample{} a pixel", if spp == 1 { "" } else { "s" });
-        panels.push(Panel::new(label, label, Arc::clone(&found.film)).remarked(remark));
+        let name = format!("{label}-{texels}");
+        panels.push(Panel::new(&name, label, Arc::clone(&found.film)).remarked(remark));
     }
     let filtered = rmse(trial(scene, "fournier", 1));
     let supersampled = rmse(trial(scene, "unfiltered", SUPERSAMPLES));
-    exhibit.claims = vec![
+    let at = format!("at {texels} texels a pixel");
+    exhibit.claims.push(
         Claim::shown(
-            "RMSE of the filtered image, of the unfiltered one's",
+            format!("RMSE of the filtered image, of the unfiltered one's, {at}"),
             "filtering takes the aliasing away",
             filtered / first,
             "below 1/2",
             filtered < 0.5 * first,
-        ),
+        )
+        .because("most of the image is magnified or near it: there is little to filter, and a trilinear lookup blurs"),
+    );
+    exhibit.claims.push(
         Claim::shown(
-            "RMSE of the filtered image, of the supersampled one's",
+            format!("RMSE of the filtered image, of the supersampled one's, {at}"),
             "supersampling costs 16 times as much and usually exhibits more aliasing (§3)",
             filtered / supersampled,
             "below 1",
             filtered < supersampled,
         )
         .because(
-            "the samples here are scrambled nets, whose error falls faster than that of the paper's sampling; and \
-             a trilinear lookup blurs where the pixel is slanted",
+            "what is left after filtering here is blur, of a square lookup on slanted footprints, more than aliasing; \
+             and the 16 samples are a scrambled net, whose error falls faster than that of the paper's sampling",
         ),
-    ];
-    let images = Images { panels, white: None, reference: Some(0), across: 2 };
-    let caption = format!(
-        "{}, {} × {} pixels, {} texels across the pixel in the middle.",
-        part.results.title,
-        scene.reference.film.width(),
-        scene.reference.film.height(),
-        scene.key.texels_per_pixel
     );
-    exhibit.figures = vec![Figure::new("images", caption, Drawing::Images(images))];
-    exhibit.tables = vec![table];
-    Ok(exhibit)
+    let images = Images { panels, white: None, reference: Some(0), across: 2 };
+    let (width, height) = (scene.reference.film.width(), scene.reference.film.height());
+    let caption = format!(
+        "{title}, {width} × {height} pixels, {texels} texels across the pixel in the middle."
+    );
+    let name = format!("images-{texels}");
+    exhibit.figures.push(Figure::new(&name, caption, Drawing::Images(images)));
 }
 
 /// The trial of a method at a sample count.

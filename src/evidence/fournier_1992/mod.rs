@@ -4,6 +4,8 @@ mod f2;
 mod f3;
 mod images;
 mod n1;
+mod peaks;
+mod surfaces;
 mod t0;
 mod t1;
 mod textures;
@@ -25,5 +27,9 @@ pub const PAPER: Paper = Paper {
         images::F6,
         images::F7,
         t1::ROW,
+        surfaces::F9,
+        surfaces::F10,
+        surfaces::F11,
+        peaks::ROW,
     ],
 };

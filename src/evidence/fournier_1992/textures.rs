@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::fit::{Directions, Distribution, Fit, GreedyOptions, Peak, fit};
 use crate::geometry::{HemisphereGrid, Vec3};
+use crate::lobe::MultipleSurface;
 use crate::parameter::{Parameter, Value, Values};
 use crate::pattern;
 use crate::texture::NormalMap;
@@ -104,6 +105,12 @@ pub fn reconstructed(
 /// Peaks on the paper's directions.
 pub fn sampled(peaks: &[Peak]) -> Vec<f64> {
     let at = |direction: Vec3| peaks.iter().map(|peak| peak.value(direction)).sum();
+    HemisphereGrid::fournier().samples().iter().map(|s| at(s.direction)).collect()
+}
+
+/// A multiple surface on the paper's directions.
+pub fn on_grid(surface: &MultipleSurface) -> Vec<f64> {
+    let at = |d: Vec3| f64::from(surface.density([d.x, d.y, d.z].map(|c| c as f32)));
     HemisphereGrid::fournier().samples().iter().map(|s| at(s.direction)).collect()
 }
 
