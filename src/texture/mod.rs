@@ -2,6 +2,7 @@
 
 mod footprint;
 mod height_map;
+mod horizon;
 pub mod image_file;
 mod normal_map;
 mod pyramid;
@@ -9,6 +10,7 @@ mod wrap;
 
 pub use footprint::Footprint;
 pub use height_map::HeightMap;
+pub use horizon::{HorizonMap, SIDES};
 pub use normal_map::{Interpolation, MIN_COSINE, NormalMap, Texel};
 pub use pyramid::{Moments, Pyramid, downsample, level_sizes, tap_weights};
 pub use wrap::{Taps, Wrap};

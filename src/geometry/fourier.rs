@@ -1,7 +1,8 @@
 //! The discrete Fourier transform of any size.
 //!
-//! Written here because libraries choose their kernels by CPU, and a pattern must have the same bits
-//! on every machine.
+//! Written here because libraries choose their kernels by CPU, or take their sines from the platform
+//! (rustfft does both; its scalar planner still the latter), and a map must have the same bits on every
+//! machine.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -9,22 +10,22 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 /// A complex number [re, im].
-pub(super) type Complex = [f64; 2];
+pub type Complex = [f64; 2];
 
 /// The product of two complex numbers.
-pub(super) fn product([a, b]: Complex, [c, d]: Complex) -> Complex {
+pub fn product([a, b]: Complex, [c, d]: Complex) -> Complex {
     [a * c - b * d, a * d + b * c]
 }
 
 /// e^(i angle).
-pub(super) fn turn(angle: f64) -> Complex {
+pub fn turn(angle: f64) -> Complex {
     let (sin, cos) = libm::sincos(angle);
     [cos, sin]
 }
 
 /// Re Σ c · e^(2πi (m i/width + n j/height)) at (i, j), row by row, over the coefficients c given by
 /// (m, n) within 0..width, 0..height. Rows without coefficients cost nothing.
-pub(super) fn synthesise(
+pub fn synthesise(
     width: usize,
     height: usize,
     coefficients: impl Iterator<Item = ([usize; 2], Complex)>,
