@@ -13,10 +13,12 @@ mod one_lobe;
 mod registry;
 mod schilling;
 mod toksvig;
+mod truth;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
 pub use registry::{Entry, brute_force, build, entries, find};
+pub use truth::{Truth, truth};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
 use crate::texture::{Footprint, NormalMap};
@@ -118,6 +120,12 @@ pub trait Prefiltered: Send + Sync {
     /// Whether it looks at footprints at all; if not, batches come without them.
     fn needs_footprint(&self) -> bool {
         true
+    }
+
+    /// Whether it looks at the directions to light and eye even where shading needs only the half
+    /// vector ([`Shading::Ndf`]); if not, such batches come without them.
+    fn needs_directions(&self) -> bool {
+        false
     }
 
     /// The multiple surface at a footprint, in tangent space.

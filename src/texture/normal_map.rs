@@ -116,6 +116,19 @@ impl NormalMap {
         self.heights.as_ref()
     }
 
+    /// The heights that its normals are of, or else those that come nearest (see
+    /// [`integrate`](super::integrate())).
+    pub fn heights_or_integrated(&self) -> Arc<HeightMap> {
+        let integrated = || Arc::new(super::integrate(self).heights);
+        self.heights.clone().unwrap_or_else(integrated)
+    }
+
+    /// [∂F/∂x, ∂F/∂y] of the surface whose normal texel (i, j) is; z is held at [`MIN_COSINE`].
+    pub fn slope(&self, i: usize, j: usize) -> [f64; 2] {
+        let [x, y, z, _] = self.texel(i, j);
+        [x, y].map(|c| f64::from(-c) / f64::from(z.max(MIN_COSINE)))
+    }
+
     /// Texels along u.
     pub fn width(&self) -> usize {
         self.width
