@@ -4,6 +4,7 @@
 //! of it; [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
 //! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
 
+mod channels;
 mod distribution;
 mod greedy;
 #[cfg(test)]
@@ -18,6 +19,7 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
+pub use channels::spread_channels;
 pub use distribution::{Directions, Distribution};
 pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, first_guess, fit, reconstruct};
 pub use least_squares::{LeastSquares, NormalEquations};

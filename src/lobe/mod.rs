@@ -11,6 +11,7 @@
 mod base;
 mod elliptic;
 mod facet;
+mod horizon;
 mod multiple_surface;
 mod peak;
 mod pearson;
@@ -21,7 +22,8 @@ pub mod vector;
 pub use base::BaseLobe;
 pub use elliptic::{EllipticLobe, Profile};
 pub use facet::{Facet, Shading, Spread};
-pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface};
+pub use horizon::Horizon;
+pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface, Visibility};
 pub use peak::PhongPeak;
 pub use pearson::PearsonLobe;
 pub use pedal::PedalLobe;

@@ -93,6 +93,12 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// A [`Refusal`] if it cannot take this base lobe at all.
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
 
+    /// Whether it looks at the heights a map's normals are of ([`NormalMap::heights`]). Where there are
+    /// none it integrates them itself; a map that several share had better come with them.
+    fn needs_heights(&self) -> bool {
+        false
+    }
+
     /// A guess of the work of [`Method::prefilter`] a texel, in times of one unfiltered sample: it tells
     /// how much of a long run is done.
     fn prefilter_work(&self) -> f64 {
