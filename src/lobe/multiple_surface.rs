@@ -144,6 +144,11 @@ impl MultipleSurface {
         self
     }
 
+    /// Whether its lobes have horizons: what light they send depends on where it comes from and goes to.
+    pub fn has_horizons(&self) -> bool {
+        !self.horizons.is_empty()
+    }
+
     /// The lobes.
     pub fn lobes(&self) -> &[Lobe] {
         &self.lobes
