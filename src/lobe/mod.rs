@@ -18,6 +18,7 @@ mod pearson;
 mod pedal;
 mod reflection;
 pub mod round;
+mod surface_file;
 pub mod vector;
 
 pub use base::BaseLobe;
@@ -29,3 +30,4 @@ pub use peak::PhongPeak;
 pub use pearson::PearsonLobe;
 pub use pedal::PedalLobe;
 pub use reflection::reflection;
+pub use surface_file::{SurfaceFileError, read_peaks};
