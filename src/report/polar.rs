@@ -1,11 +1,11 @@
 //! Reflection in the plane of incidence: polar plots above the line of the surface.
 
+use super::axis::Axis;
+use super::canvas::{Anchor, Canvas, Point, Type};
+use super::chart::{HALF_CAPITAL, SMALL, TEXT};
+use super::colour::{BLACK, GREY, Ink, PALE, series};
+use super::{font, phrase};
 use crate::evidence::{LobePlot, Reflection};
-use crate::report::axis::Axis;
-use crate::report::canvas::{Anchor, Canvas, Point, Type};
-use crate::report::chart::{HALF_CAPITAL, SMALL, TEXT};
-use crate::report::colour::{BLACK, GREY, Ink, PALE, series};
-use crate::report::{font, phrase};
 
 /// Radius of the greatest ring, units.
 const RADIUS: f32 = 150.0;
@@ -42,7 +42,10 @@ fn one(canvas: &mut Canvas, corner: Point, plot: &LobePlot, axis: &Axis) {
         curve(canvas, centre, reflection, axis, ink);
         arrow(canvas, centre, reflection.incidence, ink);
     }
-    key(canvas, [corner[0] + 14.0, corner[1] + CELL[1] - 8.0], plot);
+    let [left, right] = [14.0, CELL[0] - 14.0].map(|x| corner[0] + x);
+    let foot = corner[1] + CELL[1] - 8.0;
+    key(canvas, [left, foot], plot);
+    canvas.text([right, foot], "radiance outwards", Type { anchor: Anchor::End, ..SMALL });
 }
 
 /// The point at an angle from the normal, degrees, and a distance from the middle.
