@@ -68,7 +68,7 @@ pub fn gather(
         match runner::run(part, &folder.join(&part.name), halt, &told)? {
             Outcome::Finished(found) => {
                 let (results, costs) = *found;
-                parts.push(FinishedPart { results, costs });
+                parts.push(FinishedPart { spec: part.clone(), results, costs });
             }
             Outcome::Halted => return Ok(Gathered::Halted),
         }

@@ -1,7 +1,7 @@
 //! The papers and their rows: what evidence there is to gather, and how.
 
 use crate::experiment::results::{Costs, Results};
-use crate::experiment::spec::{PaperKeys, RowKeys};
+use crate::experiment::spec::{PaperKeys, RowKeys, Spec};
 use crate::method::Progress;
 use crate::parameter::{Parameter, Values};
 
@@ -55,6 +55,8 @@ pub struct Task<'a> {
 /// A finished sweep.
 #[derive(Clone, Debug)]
 pub struct FinishedPart {
+    /// What was asked.
+    pub spec: Spec,
     /// What it found.
     pub results: Results,
     /// What it cost.

@@ -1,10 +1,9 @@
 //! Fournier's procedure: a peak more at a time (1992 §2.3).
 
 use super::distribution::root_mean_square;
-use super::problem::EXPONENTS;
-use super::solver::{LevenbergMarquardt, Settings, Termination, solve};
+use super::guess::first_guess;
+use super::solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};
 use super::{Directions, Distribution, InputError, Peak, PeakProblem, merged};
-use crate::geometry::elementary::ln64;
 use argmin::core::Operator;
 
 /// The solver's settings in the greedy procedure. Its starts are near, so little damping serves (a third
@@ -20,19 +19,22 @@ pub const GREEDY_SETTINGS: Settings = Settings {
     iterations: 100,
 };
 
-/// When to stop adding peaks.
+/// When to stop adding peaks, and how hard to try for each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GreedyOptions {
     /// The most peaks.
     pub max_peaks: usize,
     /// Enough if the residual's rms and maximum are both below this part of the distribution's.
     pub stop: f64,
+    /// How often, at the end, a peak is taken away and set anew where most is left, first the first; kept
+    /// if all then fit better. 0 is the paper's procedure.
+    pub restarts: usize,
 }
 
 impl Default for GreedyOptions {
-    /// The paper's: 7 peaks, 5 %.
+    /// The paper's: 7 peaks, 5 %, no restarts.
     fn default() -> Self {
-        Self { max_peaks: 7, stop: 0.05 }
+        Self { max_peaks: 7, stop: 0.05, restarts: 0 }
     }
 }
 
@@ -47,7 +49,7 @@ pub struct Fit {
     pub rms: f64,
     /// Largest absolute residual over the distribution's maximum.
     pub maximum: f64,
-    /// ½ Σ residual² in units of the distribution's maximum.
+    /// ½ Σ (residual / maximum)², with the distribution's maximum: values of 10³⁰⁰ have no squares.
     pub cost: f64,
     /// Why the last fit ended; `None` if there was none.
     pub termination: Option<Termination>,
@@ -98,7 +100,8 @@ pub fn reconstruct(
 }
 
 /// Fits peaks to a distribution: the first guess of each is at the largest residual so far, and all
-/// are refitted with it, until the residual is small or there are `max_peaks`. `None` if `cancelled`.
+/// are refitted with it, until the residual is small or there are `max_peaks`; then come the restarts.
+/// `None` if `cancelled`.
 ///
 /// A distribution that is 0 everywhere needs no peaks. A fit that fails leaves the best one before it.
 pub fn fit(
@@ -107,78 +110,142 @@ pub fn fit(
     options: GreedyOptions,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Fit> {
-    let problem = PeakProblem::new(directions, distribution);
-    let mut best = Fit { rms: 1.0, maximum: 1.0, ..Fit::exact(Vec::new()) };
-    if distribution.maximum() <= 0.0 {
-        return Some(Fit::exact(Vec::new()));
-    }
-    let mut residual: Vec<f64> =
-        distribution.values().iter().map(|v| v / problem.scale()).collect();
-    while best.fitted < options.max_peaks && !best.within(options.stop) {
-        let mut start = best.peaks.clone();
-        start.extend(first_guess(&residual, directions));
-        if start.len() == best.peaks.len() {
-            break; // nothing sticks out any more
-        }
-        let fitted = start.len();
-        let solver = LevenbergMarquardt::new(GREEDY_SETTINGS, cancelled);
-        let Ok(solution) = solve(problem, solver, start) else {
-            best.failures += 1;
+    let mut search = Search::new(distribution, directions, cancelled);
+    while search.best.fitted < options.max_peaks && !search.best.within(options.stop) {
+        if !search.add_peak()? {
             break;
+        }
+    }
+    for restart in 0..options.restarts {
+        search.exchange(restart % search.best.fitted.max(1))?;
+    }
+    Some(search.found())
+}
+
+/// The fits with 1, 2, … `max_peaks` peaks of one run of the procedure without its stopping rule: error
+/// and cost against the number of peaks. Each counts the iterations since the start. Shorter if a
+/// peak more gave nothing better; empty for a distribution that is 0 everywhere. `None` if `cancelled`.
+pub fn by_peaks(
+    distribution: &Distribution,
+    directions: &Directions,
+    max_peaks: usize,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<Fit>> {
+    let mut search = Search::new(distribution, directions, cancelled);
+    let mut fits = Vec::new();
+    while fits.len() < max_peaks && search.add_peak()? {
+        fits.push(search.found());
+    }
+    Some(fits)
+}
+
+/// The procedure under way.
+struct Search<'a> {
+    problem: PeakProblem<'a>,
+    directions: &'a Directions,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+    /// The fit so far, its amplitudes in units of the distribution's maximum.
+    best: Fit,
+    /// distribution − fit at every direction, in the same units.
+    residual: Vec<f64>,
+    relative_rms: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        distribution: &'a Distribution,
+        directions: &'a Directions,
+        cancelled: &'a (dyn Fn() -> bool + Sync),
+    ) -> Self {
+        let problem = PeakProblem::new(directions, distribution).unless(cancelled);
+        // Nothing is left of nothing.
+        let left = if distribution.maximum() > 0.0 { 1.0 } else { 0.0 };
+        let best = Fit { rms: left, maximum: left, ..Fit::exact(Vec::new()) };
+        let residual = distribution.values().iter().map(|v| v / problem.scale()).collect();
+        let relative_rms = distribution.relative_rms();
+        Self { problem, directions, cancelled, best, residual, relative_rms }
+    }
+
+    /// Fits with a peak more: whether that is better. `None` if cancelled.
+    fn add_peak(&mut self) -> Option<bool> {
+        let Some(guess) = first_guess(&self.residual, self.directions) else {
+            return Some(false); // nothing sticks out any more
         };
-        best.iterations += solution.iterations;
-        best.termination = Some(solution.termination);
-        if solution.termination == Termination::Cancelled {
-            return None;
+        let mut start = self.best.peaks.clone();
+        start.push(guess);
+        let fitted = start.len();
+        let found = self.solve(start)?;
+        if let Some(solution) = &found {
+            self.best.termination = Some(solution.termination);
         }
-        let failed = solution.termination == Termination::NotFinite;
-        if failed || (fitted > 1 && solution.cost >= best.cost) {
-            best.failures += 1;
-            break;
-        }
-        residual = residuals(&problem, &solution.point, directions.count())?;
-        let norm = root_mean_square(&residual) * problem.scale();
-        best.rms = norm / distribution.rms();
-        best.maximum = residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-        (best.peaks, best.cost, best.fitted) = (solution.point, solution.cost, fitted);
+        let better = |solution: &Solution<_>| fitted == 1 || solution.cost < self.best.cost;
+        let better = found.filter(|solution| usable(solution) && better(solution));
+        let Some(solution) = better else {
+            self.best.failures += 1;
+            return Some(false);
+        };
+        self.best.fitted = fitted;
+        self.keep(solution)?;
+        Some(true)
     }
-    best.peaks.retain(|peak| peak.amplitude > 0.0);
-    best.peaks.iter_mut().for_each(|peak| peak.amplitude *= problem.scale());
-    Some(best)
+
+    /// Exchanges a peak: takes it away, fits the others, adds one where most is left, fits all, and
+    /// keeps what is better. `None` if cancelled.
+    fn exchange(&mut self, peak: usize) -> Option<()> {
+        let mut others = self.best.peaks.clone();
+        if peak >= others.len() {
+            return Some(());
+        }
+        others.remove(peak);
+        let Some(Solution { point: mut start, .. }) = self.solve(others)? else {
+            return Some(());
+        };
+        start.extend(first_guess(&self.left(&start)?, self.directions));
+        let found = self.solve(start)?;
+        let better = found.filter(|found| usable(found) && found.cost < self.best.cost);
+        better.map_or(Some(()), |solution| self.keep(solution))
+    }
+
+    /// Takes what a fit found for the best. `None` if cancelled.
+    fn keep(&mut self, solution: Solution<Vec<Peak>>) -> Option<()> {
+        self.residual = self.left(&solution.point)?;
+        self.best.rms = root_mean_square(&self.residual) / self.relative_rms;
+        self.best.maximum = self.residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
+        self.best.termination = Some(solution.termination);
+        (self.best.peaks, self.best.cost) = (solution.point, solution.cost);
+        Some(())
+    }
+
+    /// The outer `None` if cancelled, the inner if the solver fails.
+    fn solve(&mut self, start: Vec<Peak>) -> Option<Option<Solution<Vec<Peak>>>> {
+        let solver = LevenbergMarquardt::new(GREEDY_SETTINGS, self.cancelled);
+        let found = solve(self.problem, solver, start).ok();
+        if let Some(solution) = &found {
+            self.best.iterations += solution.iterations;
+        }
+        let ended = found.as_ref().map(|solution| solution.termination);
+        (ended != Some(Termination::Cancelled)).then_some(found)
+    }
+
+    /// distribution − fit at every direction, in units of the distribution's maximum; `None` if
+    /// cancelled.
+    fn left(&self, peaks: &Vec<Peak>) -> Option<Vec<f64>> {
+        let negative = self.problem.apply(peaks).ok()?;
+        Some(negative.iter().take(self.directions.count()).map(|r| -r).collect())
+    }
+
+    /// The fit so far, in the distribution's own units.
+    fn found(&self) -> Fit {
+        let mut fit = self.best.clone();
+        fit.peaks.retain(|peak| peak.amplitude > 0.0);
+        let scale = self.problem.scale();
+        fit.peaks
+            .iter_mut()
+            .for_each(|peak| peak.amplitude = (peak.amplitude * scale).min(f64::MAX));
+        fit
+    }
 }
 
-/// distribution − fit at every direction, in units of the distribution's maximum.
-fn residuals(problem: &PeakProblem<'_>, peaks: &Vec<Peak>, count: usize) -> Option<Vec<f64>> {
-    let negative = problem.apply(peaks).ok()?;
-    Some(negative.iter().take(count).map(|r| -r).collect())
-}
-
-/// A peak at the largest residual, as high as it, with the exponent that its fall-off asks for; `None`
-/// if no residual is positive.
-///
-/// Towards a neighbour at angle γ a peak of exponent n falls by cosⁿγ, so n = ln(N/N₀)/ln cos γ. The
-/// mean over the neighbours weighs each by (1 − cos γ)², as the nearest say the least.
-pub fn first_guess(residual: &[f64], directions: &Directions) -> Option<Peak> {
-    let samples = directions.grid().samples();
-    let highest = |best: usize, i: usize| if residual[i] > residual[best] { i } else { best };
-    let at = (0..residual.len().min(samples.len())).reduce(highest)?;
-    let amplitude = residual[at];
-    if amplitude <= 0.0 {
-        return None;
-    }
-    let direction = samples[at].direction;
-    let (mut sum, mut total) = (0.0, 0.0);
-    for i in directions.grid().neighbours(at) {
-        let cosine = direction.dot(&samples[i].direction);
-        if cosine <= 0.0 || cosine >= 1.0 {
-            continue;
-        }
-        // A neighbour at or below 0 fell as far as can be told.
-        let fall = ln64((residual[i] / amplitude).clamp(1e-3, 1.0));
-        let weight = (1.0 - cosine) * (1.0 - cosine);
-        sum += weight * fall / ln64(cosine);
-        total += weight;
-    }
-    let exponent = if total > 0.0 { sum / total } else { 1.0 };
-    Some(Peak { amplitude, direction, exponent: exponent.clamp(0.1, EXPONENTS[1]) })
+fn usable(solution: &Solution<Vec<Peak>>) -> bool {
+    solution.termination != Termination::NotFinite
 }

@@ -4,8 +4,11 @@
 //! of it; [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
 //! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
 
+mod channels;
+mod directions;
 mod distribution;
 mod greedy;
+mod guess;
 #[cfg(test)]
 mod independent;
 mod kernel;
@@ -19,8 +22,11 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
-pub use distribution::{Directions, Distribution};
-pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, first_guess, fit, reconstruct};
+pub use channels::spread_channels;
+pub use directions::Directions;
+pub use distribution::Distribution;
+pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, by_peaks, fit, reconstruct};
+pub use guess::first_guess;
 pub use least_squares::{LeastSquares, NormalEquations};
 pub use mixture::{Mixture, NormalBins, mixture};
 pub use peak::{InputError, Peak, merged};

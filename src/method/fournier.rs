@@ -3,17 +3,20 @@
 mod counts;
 mod lookup;
 mod pyramid;
+mod shadow;
 mod stored;
 
 use std::sync::Arc;
 
 pub use counts::{LevelCounts, count_fits};
+pub use shadow::Shadowing;
 
 use super::{Card, Damaged, Entry, Method, PrefilterError, Prefiltered, Progress, Refusal};
-use crate::fit::GreedyOptions;
+use crate::fit::{Directions, GreedyOptions};
+use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
-use crate::texture::NormalMap;
+use crate::texture::{HorizonMap, NormalMap};
 
 /// Up to 7 Phong peaks a cell of a pyramid, fitted to what the normals below spread to.
 ///
@@ -38,6 +41,11 @@ use crate::texture::NormalMap;
 /// With `mode = "fast"` nothing is sampled: a cell's normals are gathered by direction and represented by
 /// [`crate::fit::mixture`], whose integrals have closed forms. `max_peaks` and `stop` mean what they do in the
 /// paper's mode, by those integrals; the energy is kept exactly; no grid can be too coarse for narrow lobes.
+///
+/// # Masking and self-shadowing
+/// With `shadowing` each peak carries the slopes of the horizon of its normals towards −x, +x, −y, +y, as
+/// mean and standard deviation (§5), from the map's heights; where a map has none, from heights
+/// integrated from its normals. See [`Shadowing`]. It changes what light a peak sends, not the peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fournier {
     /// How a cell's peaks are found.
@@ -50,6 +58,8 @@ pub struct Fournier {
     pub azimuths: usize,
     /// Whether fitted amplitudes are rescaled to keep the energy.
     pub rescaled: bool,
+    /// What of a peak's light reaches the eye.
+    pub shadowing: Shadowing,
 }
 
 /// How a cell's peaks are found.
@@ -71,6 +81,7 @@ impl Default for Fournier {
             rings: 18,
             azimuths: 72,
             rescaled: false,
+            shadowing: Shadowing::None,
         }
     }
 }
@@ -123,6 +134,11 @@ const PARAMETERS: &[Parameter] = &[
                   a cell's energy is that of its normals",
         domain: Domain::Choice { words: &["fitted", "rescaled"] },
     },
+    Parameter {
+        name: "shadowing",
+        meaning: "none: every peak is seen and lit; printed: by the part of it that sees both light and                   eye over the horizon of its normals (§5); ratioed: what is seen then fills the pixel",
+        domain: Domain::Choice { words: &["none", "printed", "ratioed"] },
+    },
 ];
 
 /// The registry's line.
@@ -137,10 +153,16 @@ impl Fournier {
             greedy: GreedyOptions {
                 max_peaks: values.whole("max_peaks"),
                 stop: values.number("stop"),
+                restarts: 0,
             },
             rings: values.whole("rings"),
             azimuths: values.whole("azimuths"),
             rescaled: values.word("energy") == "rescaled",
+            shadowing: match values.word("shadowing") {
+                "printed" => Shadowing::Printed,
+                "ratioed" => Shadowing::Ratioed,
+                _ => Shadowing::None,
+            },
         }
     }
 }
@@ -190,6 +212,10 @@ impl Method for Fournier {
         self.exponent(base).map(|_| 0.0)
     }
 
+    fn needs_heights(&self) -> bool {
+        self.shadowing != Shadowing::None
+    }
+
     fn prefilter_work(&self) -> f64 {
         // As measured: a third of a cell is above each texel, and a fit is a thousand samples' work and more.
         match self.mode {
@@ -207,7 +233,21 @@ impl Method for Fournier {
         let exponent = self.exponent(base)?;
         let levels = pyramid::build(self, map, exponent, progress)?;
         let stored = levels.iter().map(lookup::StoredLevel::new).collect();
-        Ok(Box::new(lookup::PeakMap::new(Arc::clone(map), exponent, stored)))
+        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored);
+        if self.shadowing == Shadowing::None {
+            return Ok(Box::new(peaks));
+        }
+        let collector = shadow::Collector {
+            map,
+            texels: HorizonMap::of(&map.heights_or_integrated()),
+            exponent,
+            directions: Directions::new(HemisphereGrid::new(self.rings, self.azimuths)),
+            max_peaks: self.greedy.max_peaks,
+            cancelled: &|| progress.cancelled(),
+        };
+        let ratioed = self.shadowing == Shadowing::Ratioed;
+        let shadowed = shadow::shadowed(peaks, collector, ratioed);
+        Ok(Box::new(shadowed.ok_or(PrefilterError::Cancelled)?))
     }
 
     fn restore(
@@ -217,8 +257,14 @@ impl Method for Fournier {
         bytes: &[u8],
     ) -> Result<Box<dyn Prefiltered>, Damaged> {
         let exponent = self.exponent(base).map_err(|refusal| Damaged(refusal.0))?;
-        let levels = stored::from_bytes(map, exponent, bytes)?;
-        Ok(Box::new(lookup::PeakMap::new(Arc::clone(map), exponent, levels)))
+        let stored = stored::from_bytes(map, exponent, self.shadowing != Shadowing::None, bytes)?;
+        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored.levels);
+        if self.shadowing == Shadowing::None {
+            return Ok(Box::new(peaks));
+        }
+        let texels = HorizonMap::of(&map.heights_or_integrated());
+        let (levels, ratioed) = (stored.horizons, self.shadowing == Shadowing::Ratioed);
+        Ok(Box::new(shadow::ShadowedPeakMap { peaks, texels, levels, ratioed }))
     }
 }
 

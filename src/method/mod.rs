@@ -6,6 +6,7 @@
 
 mod averaged;
 mod batch;
+mod constant;
 pub mod fournier;
 mod lean;
 mod olano_north;
@@ -13,10 +14,13 @@ mod one_lobe;
 mod registry;
 mod schilling;
 mod toksvig;
+mod truth;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
+pub use constant::Constant;
 pub use registry::{Entry, brute_force, build, entries, find};
+pub use truth::{Truth, truth};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
 use crate::texture::{Footprint, NormalMap};
@@ -96,6 +100,12 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// A [`Refusal`] if it cannot take this base lobe at all.
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
 
+    /// Whether it looks at the heights a map's normals are of ([`NormalMap::heights`]). Where there are
+    /// none it integrates them itself; a map that several share had better come with them.
+    fn needs_heights(&self) -> bool {
+        false
+    }
+
     /// A guess of the work of [`Method::prefilter`] a texel, in times of one unfiltered sample: it tells
     /// how much of a long run is done.
     fn prefilter_work(&self) -> f64 {
@@ -144,6 +154,12 @@ pub trait Prefiltered: Send + Sync {
     /// Whether it looks at footprints at all; if not, batches come without them.
     fn needs_footprint(&self) -> bool {
         true
+    }
+
+    /// Whether it looks at the directions to light and eye even where shading needs only the half
+    /// vector ([`Shading::Ndf`]); if not, such batches come without them.
+    fn needs_directions(&self) -> bool {
+        false
     }
 
     /// The multiple surface at a footprint, in tangent space.

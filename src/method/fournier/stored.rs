@@ -1,12 +1,13 @@
 //! A pyramid of peaks as bytes.
 //!
 //! All numbers are little-endian: the number of levels above the map (u32); level by level its width,
-//! height and number of peaks (u32 each), where each cell's peaks begin and where the last's end (u32), and
-//! the peaks (amplitude, direction x, y, z, exponent: f32 each).
+//! height and number of peaks (u32 each), where each cell's peaks begin and where the last's end (u32),
+//! the peaks (amplitude, direction x, y, z, exponent: f32 each), and, where horizons are kept, the mean
+//! slopes of all peaks' and then all their deviations (towards −x, +x, −y, +y: f32 each).
 
 use super::lookup::StoredLevel;
 use super::{MOST_PEAKS, widest_range};
-use crate::lobe::PhongPeak;
+use crate::lobe::{Horizon, PhongPeak};
 use crate::method::Damaged;
 use crate::texture::{NormalMap, level_sizes};
 
@@ -15,40 +16,76 @@ const PER_PEAK: usize = 5;
 /// The largest gap of a direction's squared length to 1: rounding to single precision.
 const ROUNDING: f32 = 1e-5;
 
-/// The levels as bytes.
-pub(super) fn to_bytes(levels: &[StoredLevel]) -> Vec<u8> {
+/// A pyramid from bytes.
+#[derive(Debug)]
+pub(super) struct Stored {
+    /// Levels 1 and up.
+    pub levels: Vec<StoredLevel>,
+    /// Level by level a horizon for each peak, or nothing.
+    pub horizons: Vec<Vec<Horizon>>,
+}
+
+/// The levels as bytes, with their horizons if there are any.
+pub(super) fn to_bytes(levels: &[StoredLevel], horizons: &[Vec<Horizon>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     bytes.extend((levels.len() as u32).to_le_bytes());
-    for level in levels {
+    for (k, level) in levels.iter().enumerate() {
         for number in [level.width, level.height, level.peaks.len()] {
             bytes.extend((number as u32).to_le_bytes());
         }
         level.starts.iter().for_each(|start| bytes.extend(start.to_le_bytes()));
-        let rows = level.peaks.iter().map(|p| {
+        let peak = |p: &PhongPeak| {
             let [x, y, z] = p.direction;
             [p.amplitude, x, y, z, p.exponent]
-        });
-        push_rows(&mut bytes, rows);
+        };
+        push_rows(&mut bytes, level.peaks.iter().map(peak));
+        if let Some(horizons) = horizons.get(k) {
+            push_rows(&mut bytes, horizons.iter().map(|horizon| horizon.mean));
+            push_rows(&mut bytes, horizons.iter().map(|horizon| horizon.deviation));
+        }
     }
     bytes
 }
 
-/// The levels that [`to_bytes`] wrote for this map and base exponent.
+/// The levels that [`to_bytes`] wrote for this map and base exponent, `shadowed` or without horizons.
 ///
 /// # Errors
 /// [`Damaged`] if the bytes are too few or too many, or hold what no such pyramid has.
 pub(super) fn from_bytes(
     map: &NormalMap,
     exponent: f64,
+    shadowed: bool,
     bytes: &[u8],
-) -> Result<Vec<StoredLevel>, Damaged> {
+) -> Result<Stored, Damaged> {
     let mut rest = Reader(bytes);
     let sizes = level_sizes(map.width(), map.height());
     if rest.number()? as usize != sizes.len() - 1 {
         return damaged("its levels are not those of the map");
     }
-    let levels = sizes[1..].iter().map(|&size| level(&mut rest, size, exponent)).collect();
-    if rest.0.is_empty() { levels } else { damaged("it goes on after its last level") }
+    let mut stored = Stored { levels: Vec::new(), horizons: Vec::new() };
+    for &size in &sizes[1..] {
+        let level = level(&mut rest, size, exponent)?;
+        if shadowed {
+            stored.horizons.push(horizons(&mut rest, level.peaks.len())?);
+        }
+        stored.levels.push(level);
+    }
+    if rest.0.is_empty() { Ok(stored) } else { damaged("it goes on after its last level") }
+}
+
+fn horizons(rest: &mut Reader, count: usize) -> Result<Vec<Horizon>, Damaged> {
+    let numbers = |row: [[u8; 4]; 4]| row.map(f32::from_le_bytes);
+    let mean: Vec<[f32; 4]> = rest.rows::<4>(count)?.map(numbers).collect();
+    let deviation = rest.rows::<4>(count)?.map(numbers);
+    let horizons: Vec<Horizon> = mean
+        .into_iter()
+        .zip(deviation)
+        .map(|(mean, deviation)| Horizon { mean, deviation })
+        .collect();
+    let usable = |horizon: &Horizon| {
+        horizon.mean.iter().chain(&horizon.deviation).all(|s| s.is_finite() && *s >= 0.0)
+    };
+    if horizons.iter().all(usable) { Ok(horizons) } else { damaged("one of its horizons is none") }
 }
 
 fn level(rest: &mut Reader, size: (usize, usize), exponent: f64) -> Result<StoredLevel, Damaged> {
