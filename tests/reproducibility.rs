@@ -187,10 +187,79 @@ fn a_changed_experiment_takes_up_only_what_did_not_change() {
         all.into_iter().filter(|f| f.0.ends_with("reference.exr")).collect::<Vec<_>>()
     };
     let before = reference(&folder);
-    let csv = |folder: &Path| fs::read(folder.join("metrics.csv")).unwrap();
     bench.run("changed", &[]);
     assert_eq!(reference(&folder), before);
-    assert!(csv(&folder) == csv(&bench.run("fresh", &[])));
+    assert!(metrics(&folder) == metrics(&bench.run("fresh", &[])));
+}
+
+/// The prefiltered maps that a run keeps.
+fn prefilters(results: &Path) -> Vec<PathBuf> {
+    let kept = files_under(&results.join(".state/prefilters"));
+    kept.into_iter().filter(|path| path.extension().is_some_and(|e| e == "prefilter")).collect()
+}
+
+/// Another camera and other samples: nothing of the first run's images serves, its pyramids do.
+const ELSEWHERE: [(&str, &str); 2] =
+    [("spp = [1, 4]", "spp = [2]"), ("[reference]", "[camera]\nelevation = 50.0\n[reference]")];
+
+fn elsewhere() -> String {
+    ELSEWHERE.iter().fold(EXPERIMENT.to_owned(), |text, (from, to)| text.replace(from, to))
+}
+
+fn metrics(results: &Path) -> Vec<u8> {
+    fs::read(results.join("metrics.csv")).unwrap()
+}
+
+#[test]
+fn prefiltered_maps_are_taken_from_an_earlier_run() {
+    let bench = Bench::new();
+    let folder = bench.run("moved", &[]);
+    let before = written(&folder.join(".state/prefilters"));
+    assert_eq!(before.len(), 2, "a pyramid for each texture, none for the lobe that is refused");
+    // Seconds as the first run measured them stand in the file: write some that no run has.
+    for path in prefilters(&folder) {
+        let mut file = fs::read(&path).unwrap();
+        file.truncate(file.len() - 32);
+        file[44..52].copy_from_slice(&1234.5f64.to_le_bytes());
+        let digest = blake3::hash(&file);
+        file.extend(digest.as_bytes());
+        fs::write(&path, file).unwrap();
+    }
+    let before = written(&folder.join(".state/prefilters"));
+    fs::write(bench.folder.path().join("trial.toml"), elsewhere()).unwrap();
+    bench.run("moved", &[]);
+    assert_eq!(written(&folder.join(".state/prefilters")), before, "they are not built again");
+    let costs = fs::read_to_string(folder.join("costs.csv")).unwrap();
+    let built = costs.lines().filter(|line| line.contains("fournier") && line.contains("1234.5"));
+    assert_eq!(built.count(), 2, "the cost is that of the build: {costs}");
+    assert!(metrics(&folder) == metrics(&bench.run("fresh", &[])));
+}
+
+#[test]
+fn a_damaged_prefiltered_map_is_told_of_and_replaced() {
+    let bench = Bench::new();
+    let folder = bench.run("hurt", &[]);
+    let good: Vec<Vec<u8>> = prefilters(&folder).iter().map(|p| fs::read(p).unwrap()).collect();
+    let kept = prefilters(&folder);
+    let mut flipped = good[0].clone();
+    flipped[good[0].len() / 2] ^= 4;
+    fs::write(&kept[0], flipped).unwrap();
+    fs::write(&kept[1], &good[1][..good[1].len() / 2]).unwrap();
+    fs::write(bench.folder.path().join("trial.toml"), elsewhere()).unwrap();
+    let args = ["run", "trial.toml", "--out", "hurt"];
+    let done = output(bench.folder.path(), &args);
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{said}");
+    let told: Vec<&str> = said.lines().filter(|l| l.contains("is not usable")).collect();
+    assert_eq!(told.len(), 2, "{said}");
+    assert!(told.iter().all(|l| l.contains(".prefilter") && l.contains("built again")), "{said}");
+    // The same again, but for the seconds and the digest of it all.
+    for (path, good) in kept.iter().zip(&good) {
+        let again = fs::read(path).unwrap();
+        let peaks = |file: &[u8]| file[52..file.len() - 32].to_vec();
+        assert!(peaks(&again) == peaks(good));
+    }
+    assert!(metrics(&folder) == metrics(&bench.run("fresh", &[])));
 }
 
 /// The committed report was written by the release build; this is another.

@@ -3,7 +3,7 @@
 //! The unit is the time of one unfiltered sample.
 
 use super::author::{Plan, PlannedScene, PlannedTrial};
-use super::spec::Spec;
+use super::spec::{MethodSpec, Spec};
 use crate::method;
 
 /// The work of an experiment's pieces.
@@ -20,13 +20,16 @@ pub(super) struct Work {
 impl Work {
     /// The work of `spec`, whose textures have these many texels.
     pub fn of(spec: &Spec, texels: Vec<f64>) -> Self {
-        let a_texel = |name| method::build(name).map_or(0.0, |method| method.prefilter_work());
+        let a_texel = |of: &MethodSpec| {
+            let entry = method::find(of.name);
+            entry.map_or(0.0, |entry| (entry.build)(&of.values).prefilter_work())
+        };
         Self {
             pixels: (spec.image.width * spec.image.height) as f64,
             reference_spp: f64::from(spec.reference.spp),
             replicates: f64::from(spec.reference.replicates),
             texels,
-            prefilters: spec.sweep.methods.iter().map(|of| a_texel(of.name)).collect(),
+            prefilters: spec.sweep.methods.iter().map(a_texel).collect(),
         }
     }
 

@@ -94,7 +94,8 @@ const CARD: Card = Card {
     source: "Fournier 1992, Filtering Normal Maps and Creating Multiple Surfaces, §2",
     summary: "Fits up to 7 Phong peaks to the normals under each cell of a pyramid.",
     formula: "Σ aᵢ cosⁿⁱ over the peaks of 4 cells and 2 levels, amplitudes weighted, never averaged",
-    limits: "slow to build; a fit keeps energy within a percent or so, not exactly; Blinn-Phong base lobes only",
+    limits: "slow to build as printed, and a fit then keeps energy within a percent or so, not exactly; the fast \
+             mode is less close where normals lie near the horizon; Blinn-Phong base lobes only",
     normalised: true,
     keeps_roughness: true,
     precision: 0.05,

@@ -66,17 +66,26 @@ fn distance(
     apart.sum::<f64>() / cells.len() as f64
 }
 
+/// What the fast mode's distance may be of the paper's, as measured at exponent 60 with some room: it comes out
+/// between 0.94 and 1.41 times, but up to 3.5 times on hemispheres, where normals near the horizon have the
+/// largest weights. Integrals over the whole sphere count these as much as others; a sampled upper
+/// hemisphere, and this distance, hardly do.
+const FACTORS: [(&str, f64); 5] =
+    [("waves", 1.2), ("gaussian", 1.25), ("bricks", 1.5), ("twill", 1.1), ("hemispheres", 4.0)];
+
 #[test]
 fn the_fast_mode_is_nearly_as_close_to_the_truth_as_the_papers() {
     let grid = HemisphereGrid::new(36, 144);
-    for name in ["waves", "gaussian", "bricks", "twill", "hemispheres"] {
+    for (name, factor) in FACTORS {
         let map = map(name, 32);
         let [paper, fast] = [Mode::Paper, Mode::Fast].map(|mode| prefiltered(mode, &map));
         for level in 2..=5 {
             let truths = truths(&grid, &map, level);
             let [paper, fast] =
                 [&paper, &fast].map(|f| distance(&grid, f.as_ref(), &map, level, &truths));
-            println!("{name} {level}: paper {paper:.4}, fast {fast:.4}, {:.2}", fast / paper);
+            println!("{name} {level}: paper {paper:.4}, fast {fast:.4}");
+            let exact = 1e-4; // Kept normals: single precision on either side.
+            assert!(fast <= factor * paper + exact, "{name}, level {level}: {fast} {paper}");
         }
     }
 }
