@@ -61,7 +61,7 @@ pub struct Material {
 }
 
 /// The form of a surface, not yet tiled.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Debug)]
 pub struct SurfaceShape(pub Shape);
 
 /// A camera, placed.

@@ -27,6 +27,7 @@ pub const PAPER: Paper = Paper {
         images::F5,
         images::F6,
         images::F7,
+        images::F8,
         t1::ROW,
         surfaces::F9,
         surfaces::F10,
