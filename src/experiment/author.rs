@@ -1,5 +1,7 @@
 //! From a spec to entities: the author of the world.
 
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 
 use super::spec::{
@@ -188,7 +190,7 @@ fn spawn_texture(world: &mut World, spec: &TextureSpec) -> Entity {
     world.spawn((Texture, name, source)).id()
 }
 
-/// Makes or reads a texture's bumps.
+/// Makes or reads a texture's bumps. Its normals know the heights they are of, where there are any.
 ///
 /// # Errors
 /// What is wrong with its file.
@@ -204,6 +206,9 @@ pub fn load(spec: &TextureSpec) -> Result<Bumps, LoadError> {
         }
     };
     bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    if let Some(heights) = bumps.heights.take() {
+        bumps.normals = bumps.normals.with_heights(Arc::new(heights));
+    }
     Ok(bumps)
 }
 

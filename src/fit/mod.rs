@@ -4,6 +4,7 @@
 //! of it; [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
 //! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
 
+mod channels;
 mod directions;
 mod distribution;
 mod greedy;
@@ -20,6 +21,7 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
+pub use channels::spread_channels;
 pub use directions::Directions;
 pub use distribution::Distribution;
 pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, by_peaks, fit, reconstruct};

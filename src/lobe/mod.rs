@@ -11,6 +11,7 @@
 mod base;
 mod elliptic;
 mod facet;
+mod horizon;
 mod multiple_surface;
 mod named;
 mod peak;
@@ -24,7 +25,8 @@ pub mod vector;
 pub use base::BaseLobe;
 pub use elliptic::{EllipticLobe, Profile};
 pub use facet::{Facet, Shading, Spread};
-pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface};
+pub use horizon::Horizon;
+pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface, Visibility};
 pub use named::{NamedSurface, find_named, named};
 pub use peak::PhongPeak;
 pub use pearson::PearsonLobe;

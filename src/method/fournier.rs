@@ -2,16 +2,19 @@
 
 mod lookup;
 mod pyramid;
+mod shadow;
 
 use std::sync::Arc;
 
 pub use pyramid::{LevelCounts, count_fits};
+pub use shadow::Shadowing;
 
 use super::{Card, Entry, Method, PrefilterError, Prefiltered, Progress, Refusal};
-use crate::fit::GreedyOptions;
+use crate::fit::{Directions, GreedyOptions};
+use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
-use crate::texture::NormalMap;
+use crate::texture::{HorizonMap, NormalMap};
 
 /// Up to 7 Phong peaks a cell of a pyramid, fitted to what the normals below spread to.
 ///
@@ -31,6 +34,11 @@ use crate::texture::NormalMap;
 /// smooth bumps and on a hemisphere it is below half a percent. With `energy = "rescaled"` a fitted
 /// cell's amplitudes are multiplied so that its vector moment along its mean normal is exactly that of
 /// its normals.
+///
+/// # Masking and self-shadowing
+/// With `shadowing` each peak carries the slopes of the horizon of its normals towards −x, +x, −y, +y, as
+/// mean and standard deviation (§5), from the map's heights; where a map has none, from heights
+/// integrated from its normals. See [`Shadowing`]. It changes what light a peak sends, not the peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fournier {
     /// When to stop adding peaks.
@@ -41,12 +49,20 @@ pub struct Fournier {
     pub azimuths: usize,
     /// Whether fitted amplitudes are rescaled to keep the energy.
     pub rescaled: bool,
+    /// What of a peak's light reaches the eye.
+    pub shadowing: Shadowing,
 }
 
 impl Default for Fournier {
     /// As printed.
     fn default() -> Self {
-        Self { greedy: GreedyOptions::default(), rings: 18, azimuths: 72, rescaled: false }
+        Self {
+            greedy: GreedyOptions::default(),
+            rings: 18,
+            azimuths: 72,
+            rescaled: false,
+            shadowing: Shadowing::None,
+        }
     }
 }
 
@@ -92,6 +108,11 @@ const PARAMETERS: &[Parameter] = &[
                   a cell's energy is that of its normals",
         domain: Domain::Choice { words: &["fitted", "rescaled"] },
     },
+    Parameter {
+        name: "shadowing",
+        meaning: "none: every peak is seen and lit; printed: by the part of it that sees both light and                   eye over the horizon of its normals (§5); ratioed: what is seen then fills the pixel",
+        domain: Domain::Choice { words: &["none", "printed", "ratioed"] },
+    },
 ];
 
 /// The registry's line.
@@ -110,6 +131,11 @@ impl Fournier {
             rings: values.whole("rings"),
             azimuths: values.whole("azimuths"),
             rescaled: values.word("energy") == "rescaled",
+            shadowing: match values.word("shadowing") {
+                "printed" => Shadowing::Printed,
+                "ratioed" => Shadowing::Ratioed,
+                _ => Shadowing::None,
+            },
         }
     }
 }
@@ -137,6 +163,10 @@ impl Method for Fournier {
         exponent(base).map(|_| 0.0)
     }
 
+    fn needs_heights(&self) -> bool {
+        self.shadowing != Shadowing::None
+    }
+
     fn prefilter_work(&self) -> f64 {
         // A third of a cell is above each texel; a fit of one is a thousand samples, as measured.
         3000.0
@@ -151,7 +181,21 @@ impl Method for Fournier {
         let exponent = exponent(base)?;
         let levels = pyramid::build(self, map, exponent, progress)?;
         let stored = levels.iter().map(lookup::StoredLevel::new).collect();
-        Ok(Box::new(lookup::PeakMap::new(Arc::clone(map), exponent, stored)))
+        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored);
+        if self.shadowing == Shadowing::None {
+            return Ok(Box::new(peaks));
+        }
+        let collector = shadow::Collector {
+            map,
+            texels: HorizonMap::of(&map.heights_or_integrated()),
+            exponent,
+            directions: Directions::new(HemisphereGrid::new(self.rings, self.azimuths)),
+            max_peaks: self.greedy.max_peaks,
+            cancelled: &|| progress.cancelled(),
+        };
+        let ratioed = self.shadowing == Shadowing::Ratioed;
+        let shadowed = shadow::shadowed(peaks, collector, ratioed);
+        Ok(Box::new(shadowed.ok_or(PrefilterError::Cancelled)?))
     }
 }
 

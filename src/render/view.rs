@@ -39,7 +39,8 @@ impl View {
     }
 
     /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`). With
-    /// `spacing`, the part of a pixel's side that a sample stands for, it fills in footprints too.
+    /// `spacing`, the part of a pixel's side that a sample stands for, it fills in footprints too;
+    /// `directions` to light and eye if asked, or if the shading needs them.
     ///
     /// What differs from batch to batch is decided here, once, and not within the loop.
     pub(super) fn fill(
@@ -48,15 +49,16 @@ impl View {
         y: &[f64; BATCH],
         len: usize,
         spacing: Option<f64>,
+        directions: bool,
         batch: &mut Batch,
     ) {
         batch.len = len;
         let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
-        match (self.shading, spacing) {
-            (Shading::Ndf, None) => points.fill::<false, false>(),
-            (Shading::Ndf, Some(_)) => points.fill::<false, true>(),
-            (Shading::Microfacet, None) => points.fill::<true, false>(),
-            (Shading::Microfacet, Some(_)) => points.fill::<true, true>(),
+        match (directions || self.shading == Shading::Microfacet, spacing) {
+            (false, None) => points.fill::<false, false>(),
+            (false, Some(_)) => points.fill::<false, true>(),
+            (true, None) => points.fill::<true, false>(),
+            (true, Some(_)) => points.fill::<true, true>(),
         }
     }
 }

@@ -141,12 +141,13 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
 ///
 /// # Panics
 /// If the sweep has none: the experiment's parts are written with the rows.
-fn trial<'a>(scene: &'a SceneResult, method: &str, spp: u32) -> &'a TrialResult {
+pub fn trial<'a>(scene: &'a SceneResult, method: &str, spp: u32) -> &'a TrialResult {
     let found = scene.trials.iter().find(|t| t.method == method && t.spp == spp);
     found.unwrap_or_else(|| panic!("the part has no trial of {method} at {spp} samples"))
 }
 
-fn rmse(trial: &TrialResult) -> f64 {
+/// A trial's root mean square error.
+pub fn rmse(trial: &TrialResult) -> f64 {
     trial.score("rmse").unwrap_or(f64::NAN)
 }
 

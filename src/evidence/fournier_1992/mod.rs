@@ -2,6 +2,7 @@
 
 mod f2;
 mod f3;
+mod horizons;
 mod images;
 mod n1;
 mod peaks;
@@ -30,6 +31,9 @@ pub const PAPER: Paper = Paper {
         surfaces::F9,
         surfaces::F10,
         surfaces::F11,
+        horizons::F12,
+        horizons::F13,
+        horizons::F14,
         peaks::ROW,
     ],
 };

@@ -12,6 +12,8 @@ mod log;
 mod material;
 mod method;
 mod paper;
+#[cfg(test)]
+mod paper_tests;
 mod reader;
 mod reference;
 mod scene;

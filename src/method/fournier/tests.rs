@@ -72,6 +72,7 @@ fn the_kernel_is_the_lobes_bit_by_bit() {
         rings: 9,
         azimuths: 24,
         rescaled: false,
+        ..Fournier::default()
     };
     for (method, map) in [(Fournier::default(), bumps(11, 6)), (most, bumps(16, 16))] {
         let filtered = prefiltered(&method, &map);
