@@ -69,7 +69,7 @@ mod tests {
         let spread = spread_channels(&carried, &directions, &|| false).unwrap();
         let want = Distribution::spread(&normals, &directions, &|| false).unwrap();
         for ((got, want), sample) in
-            spread.iter().zip(want.values()).zip(directions.grid().samples())
+            spread.iter().zip(want.values()).zip(directions.grid().unwrap().samples())
         {
             assert!((got[0] - want).abs() <= 1e-12 * want);
             let mean: f64 = normals.iter().map(|n| n.direction.x * n.value(sample.direction)).sum();
