@@ -41,13 +41,12 @@ fn distribution(directions: &Directions) -> Distribution {
 
 /// The start of the procedure's fit with this many peaks, in units of the maximum.
 fn start(distribution: &Distribution, directions: &Directions, peaks: usize) -> Vec<Peak> {
-    let options = GreedyOptions { max_peaks: peaks - 1, stop: 0.0 };
+    let options = GreedyOptions { max_peaks: peaks - 1, stop: 0.0, restarts: 0 };
     let mut start = fit(distribution, directions, options, &|| false).unwrap().peaks;
-    let left = |(sample, value): (&wrinkle::geometry::Sample, &f64)| {
-        value - start.iter().map(|p| p.value(sample.direction)).sum::<f64>()
+    let left = |(toward, value): (Vector3<f64>, &f64)| {
+        value - start.iter().map(|p| p.value(toward)).sum::<f64>()
     };
-    let residual: Vec<f64> =
-        directions.grid().samples().iter().zip(distribution.values()).map(left).collect();
+    let residual: Vec<f64> = directions.iter().zip(distribution.values()).map(left).collect();
     start.extend(first_guess(&residual, directions));
     start.iter_mut().for_each(|p| p.amplitude /= distribution.maximum());
     start
@@ -75,7 +74,7 @@ fn levenberg_marquardt_crate(bencher: Bencher, peaks: usize) {
     let directions = Directions::new(HemisphereGrid::fournier());
     let distribution = distribution(&directions);
     let start = start(&distribution, &directions, peaks);
-    let places: Vec<_> = directions.grid().samples().iter().map(|s| s.direction).collect();
+    let places: Vec<_> = directions.iter().collect();
     let maximum = distribution.maximum();
     let target: Vec<f64> = distribution.values().iter().map(|v| v / maximum).collect();
     let run = || {

@@ -8,7 +8,6 @@ use super::Exit;
 use super::args::ListArgs;
 use super::exit::Failure;
 use super::experiments;
-use crate::experiment::spec::Spec;
 use crate::parameter::{Domain, Parameter};
 use crate::{method, pattern};
 
@@ -42,9 +41,8 @@ fn sections() -> [(&'static str, Vec<(String, String)>); 4] {
     let experiments = experiments::names()
         .into_iter()
         .map(|name| {
-            let path = std::path::Path::new(experiments::FOLDER).join(format!("{name}.toml"));
-            let what =
-                Spec::load(&path).map_or("has errors: run it to see them".into(), |s| s.title);
+            let loaded = experiments::load(&name);
+            let what = loaded.map_or("has errors: run it to see them".into(), |e| e.title().into());
             (name, what)
         })
         .collect();

@@ -8,6 +8,7 @@ mod list;
 mod progress;
 mod render;
 mod run;
+mod summary;
 
 use std::io::Write;
 use std::process::ExitCode;

@@ -52,7 +52,7 @@ impl Bar {
             RunEvent::Scene { .. } => state.scene += 1,
             RunEvent::Working { what, work } => {
                 state.piece = *work;
-                let message = format!("scene {} of {}: {what}", state.scene, state.scenes);
+                let message = format!("{} of {}: {what}", state.scene, state.scenes);
                 self.bar.set_message(message);
             }
             RunEvent::Partly { part } => self.show(&state, part * state.piece),

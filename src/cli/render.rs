@@ -64,7 +64,7 @@ fn spec(args: &RenderArgs) -> Result<Spec, Failure> {
         }
         Spec::parse(&about_image(args), Path::new("render.toml")).map_err(Failure::wrong)?
     } else {
-        experiments::load(&args.file)?
+        experiments::load_sweep(&args.file)?
     };
     if let Some((width, height)) = args.size {
         (spec.image.width, spec.image.height) = (width, height);

@@ -78,9 +78,37 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
     Ok(Outcome::Finished(Box::new(collect(spec, &plan, &store, &mut stage, costs))))
 }
 
+/// How much there is to an experiment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Units of work.
+    pub work: f64,
+    /// Scenes.
+    pub scenes: usize,
+    /// Trials.
+    pub trials: usize,
+}
+
+/// How much there is to an experiment, if nothing of it was done before.
+///
+/// # Errors
+/// If a texture cannot be loaded.
+pub fn extent(spec: &Spec) -> Result<Extent, RunError> {
+    let work = Work::of(spec, texels(spec)?);
+    let plan = author(spec, &mut Stagehand::new(spec.seed, Halt::default()));
+    Ok(Extent::of(&work, &plan))
+}
+
+impl Extent {
+    fn of(work: &Work, plan: &Plan) -> Self {
+        let trials = plan.scenes.iter().map(|scene| scene.trials.len()).sum();
+        Self { work: work.all(plan), scenes: plan.scenes.len(), trials }
+    }
+}
+
 /// The texels of each texture, once it is known that it can be had.
 fn texels(spec: &Spec) -> Result<Vec<f64>, RunError> {
-    let count = |texture: &TextureSpec| match load(texture) {
+    let count = |texture: &TextureSpec| match load(texture, spec.needs_heights()) {
         Ok(bumps) => Ok((bumps.normals.width() * bumps.normals.height()) as f64),
         Err(source) => Err(RunError::Texture { texture: texture.name.clone(), source }),
     };
@@ -101,10 +129,8 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn announce(&mut self) {
-        let scenes = &self.plan.scenes;
-        let work = self.work.all(self.plan);
-        let trials = scenes.iter().map(|scene| scene.trials.len()).sum();
-        (self.watch)(RunEvent::Started { work, scenes: scenes.len(), trials });
+        let Extent { work, scenes, trials } = Extent::of(&self.work, self.plan);
+        (self.watch)(RunEvent::Started { work, scenes, trials });
     }
 
     /// Tells that a piece of the current scene is done.

@@ -137,10 +137,18 @@ impl Store {
         value: &T,
         film: &Film,
     ) -> Result<(), StoreError> {
+        self.keep_film(scene, name, film)?;
+        self.write_record(scene, name, depends, Some(film.digest()), value)
+    }
+
+    /// Keeps an image without a record.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn keep_film(&self, scene: &str, name: &str, film: &Film) -> Result<(), StoreError> {
         let path = self.image_path(scene, name);
         make_parent(&path)?;
-        film.write_exr(&path)?;
-        self.write_record(scene, name, depends, Some(film_digest(film)), value)
+        Ok(film.write_exr(&path)?)
     }
 
     /// The record named `name` of `scene`, if there is one and it depends on just this.
@@ -157,7 +165,7 @@ impl Store {
     ) -> Option<(T, Film)> {
         let kept: Kept<T> = self.read_record(scene, name, depends)?;
         let film = Film::read_exr(&self.image_path(scene, name)).ok()?;
-        (kept.image? == film_digest(&film)).then_some((kept.value, film))
+        (kept.image? == film.digest()).then_some((kept.value, film))
     }
 
     fn record_path(&self, scene: &str, name: &str) -> PathBuf {
@@ -196,10 +204,6 @@ impl Store {
         let kept: Kept<T> = serde_json::from_slice(&text).ok()?;
         (kept.digest == self.digest(depends)).then_some(kept)
     }
-}
-
-fn film_digest(film: &Film) -> String {
-    blake3::hash(bytemuck::cast_slice(film.pixels())).to_hex().to_string()
 }
 
 fn make_parent(path: &Path) -> Result<(), StoreError> {

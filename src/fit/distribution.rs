@@ -1,65 +1,23 @@
-//! Distributions of normals, sampled over the hemisphere.
+//! Distributions of normals, sampled.
 
 use rayon::prelude::*;
 
 use super::kernel::{CHUNK, spread_chunk};
-use super::{InputError, Peak};
-use crate::geometry::HemisphereGrid;
+use super::{Directions, InputError, Peak};
 
 /// From this many normals on, a distribution is spread on all cores: below, regions are small and
 /// many, and run beside each other.
 const MANY_NORMALS: usize = 512;
 
-/// The directions of a [`HemisphereGrid`], axis by axis, filled up with zero vectors to whole chunks
-/// (where every peak is 0), so that loops over them become vector code.
-#[derive(Clone, Debug)]
-pub struct Directions {
-    grid: HemisphereGrid,
-    axes: [Vec<f64>; 3],
-}
-
-impl Directions {
-    /// The directions of a grid.
-    pub fn new(grid: HemisphereGrid) -> Self {
-        let padded = grid.samples().len().div_ceil(CHUNK) * CHUNK;
-        let axes = std::array::from_fn(|c| {
-            let mut axis: Vec<f64> = grid.samples().iter().map(|s| s.direction[c]).collect();
-            axis.resize(padded, 0.0);
-            axis
-        });
-        Self { grid, axes }
-    }
-
-    /// The grid.
-    pub fn grid(&self) -> &HemisphereGrid {
-        &self.grid
-    }
-
-    /// Number of directions.
-    pub fn count(&self) -> usize {
-        self.grid.samples().len()
-    }
-
-    /// x, y and z of chunk `k`.
-    pub(super) fn chunk(&self, k: usize) -> [&[f64; CHUNK]; 3] {
-        let at = k * CHUNK..(k + 1) * CHUNK;
-        // The lengths are multiples of a chunk, so the slice has a chunk's length.
-        [0, 1, 2].map(|c| self.axes[c][at.clone()].try_into().expect("a whole chunk"))
-    }
-
-    pub(super) fn chunks(&self) -> usize {
-        self.axes[0].len() / CHUNK
-    }
-}
-
-/// N(ω) at every direction of a grid: the density of normals of a region (Fournier 1992 §2.1).
+/// N(ω) at every one of some directions: the density of normals of a region (Fournier 1992 §2.1).
 #[derive(Clone, Debug)]
 pub struct Distribution {
     /// One value a direction, then zeros to whole chunks.
     values: Vec<f64>,
     count: usize,
     maximum: f64,
-    rms: f64,
+    /// The rms in units of the maximum.
+    relative_rms: f64,
 }
 
 impl Distribution {
@@ -89,7 +47,7 @@ impl Distribution {
         (!cancelled()).then(|| Self::of(values, directions.count()))
     }
 
-    /// A distribution from samples in the grid's order.
+    /// A distribution from samples, one a direction, in the order of the directions.
     ///
     /// # Errors
     /// If there is not one sample a direction, or one is negative or not finite.
@@ -111,11 +69,11 @@ impl Distribution {
         // In units of the maximum, so that squares neither overflow nor vanish.
         let scale = if maximum > 0.0 { maximum } else { 1.0 };
         let relative: Vec<f64> = values[..count].iter().map(|v| v / scale).collect();
-        let rms = root_mean_square(&relative) * scale;
-        Self { values, count, maximum, rms }
+        let relative_rms = root_mean_square(&relative);
+        Self { values, count, maximum, relative_rms }
     }
 
-    /// The values, in the grid's order.
+    /// The values, in the order of the directions.
     pub fn values(&self) -> &[f64] {
         &self.values[..self.count]
     }
@@ -132,7 +90,13 @@ impl Distribution {
 
     /// The root of the mean squared value.
     pub fn rms(&self) -> f64 {
-        self.rms
+        self.relative_rms * self.maximum
+    }
+
+    /// The root of the mean squared value, in units of the largest: from 0 to 1, however small or large
+    /// the values are.
+    pub fn relative_rms(&self) -> f64 {
+        self.relative_rms
     }
 }
 
@@ -145,7 +109,7 @@ pub(super) fn root_mean_square(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Vec3;
+    use crate::geometry::{HemisphereGrid, Vec3};
 
     #[test]
     fn spreading_is_the_sum_of_peaks() {
@@ -159,8 +123,8 @@ mod tests {
             })
             .collect();
         let distribution = Distribution::spread(&normals, &directions, &|| false).unwrap();
-        for (sample, got) in directions.grid().samples().iter().zip(distribution.values()) {
-            let want: f64 = normals.iter().map(|p| p.value(sample.direction)).sum();
+        for (toward, got) in directions.iter().zip(distribution.values()) {
+            let want: f64 = normals.iter().map(|p| p.value(toward)).sum();
             assert!((got - want).abs() <= 1e-12 * want, "{got} {want}");
         }
     }

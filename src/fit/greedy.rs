@@ -1,11 +1,10 @@
 //! Fournier's procedure: a peak more at a time (1992 §2.3).
 
 use super::distribution::root_mean_square;
-use super::problem::EXPONENTS;
-use super::solver::{LevenbergMarquardt, Settings, Termination, solve};
+use super::guess::{disturbed, first_guess};
+use super::solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};
 use super::{Directions, Distribution, InputError, Peak, PeakProblem, merged};
-use crate::geometry::elementary::ln64;
-use argmin::core::Operator;
+use argmin::core::{Error, Operator};
 
 /// The solver's settings in the greedy procedure. Its starts are near, so little damping serves (a third
 /// fewer iterations than τ = 1); and a fit that gains less than 10⁻⁴ of its cost a step is good
@@ -20,19 +19,22 @@ pub const GREEDY_SETTINGS: Settings = Settings {
     iterations: 100,
 };
 
-/// When to stop adding peaks.
+/// When to stop adding peaks, and how hard to try for each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GreedyOptions {
     /// The most peaks.
     pub max_peaks: usize,
     /// Enough if the residual's rms and maximum are both below this part of the distribution's.
     pub stop: f64,
+    /// Further starts tried for each number of peaks, of which the best is kept. 0 is the paper's
+    /// procedure; each costs as much time again.
+    pub restarts: usize,
 }
 
 impl Default for GreedyOptions {
-    /// The paper's: 7 peaks, 5 %.
+    /// The paper's: 7 peaks, 5 %, no restarts.
     fn default() -> Self {
-        Self { max_peaks: 7, stop: 0.05 }
+        Self { max_peaks: 7, stop: 0.05, restarts: 0 }
     }
 }
 
@@ -47,7 +49,7 @@ pub struct Fit {
     pub rms: f64,
     /// Largest absolute residual over the distribution's maximum.
     pub maximum: f64,
-    /// ½ Σ residual² in units of the distribution's maximum.
+    /// ½ Σ (residual / maximum)², with the distribution's maximum: values of 10³⁰⁰ have no squares.
     pub cost: f64,
     /// Why the last fit ended; `None` if there was none.
     pub termination: Option<Termination>,
@@ -107,78 +109,140 @@ pub fn fit(
     options: GreedyOptions,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Fit> {
-    let problem = PeakProblem::new(directions, distribution);
-    let mut best = Fit { rms: 1.0, maximum: 1.0, ..Fit::exact(Vec::new()) };
-    if distribution.maximum() <= 0.0 {
-        return Some(Fit::exact(Vec::new()));
-    }
-    let mut residual: Vec<f64> =
-        distribution.values().iter().map(|v| v / problem.scale()).collect();
-    while best.fitted < options.max_peaks && !best.within(options.stop) {
-        let mut start = best.peaks.clone();
-        start.extend(first_guess(&residual, directions));
-        if start.len() == best.peaks.len() {
-            break; // nothing sticks out any more
-        }
-        let fitted = start.len();
-        let solver = LevenbergMarquardt::new(GREEDY_SETTINGS, cancelled);
-        let Ok(solution) = solve(problem, solver, start) else {
-            best.failures += 1;
+    let mut search = Search::new(distribution, directions, options.restarts, cancelled);
+    while search.best.fitted < options.max_peaks && !search.best.within(options.stop) {
+        if !search.add_peak()? {
             break;
+        }
+    }
+    Some(search.found())
+}
+
+/// The fits with 1, 2, … `max_peaks` peaks of one run of the procedure without its stopping rule: error
+/// and cost against the number of peaks. Each counts the iterations since the start. Shorter if a
+/// peak more gave nothing better; empty for a distribution that is 0 everywhere. `None` if `cancelled`.
+pub fn by_peaks(
+    distribution: &Distribution,
+    directions: &Directions,
+    max_peaks: usize,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<Fit>> {
+    let mut search = Search::new(distribution, directions, 0, cancelled);
+    let mut fits = Vec::new();
+    while fits.len() < max_peaks && search.add_peak()? {
+        fits.push(search.found());
+    }
+    Some(fits)
+}
+
+/// The procedure under way.
+struct Search<'a> {
+    problem: PeakProblem<'a>,
+    directions: &'a Directions,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+    restarts: usize,
+    /// The fit so far, its amplitudes in units of the distribution's maximum.
+    best: Fit,
+    /// distribution − fit at every direction, in the same units.
+    residual: Vec<f64>,
+    relative_rms: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        distribution: &'a Distribution,
+        directions: &'a Directions,
+        restarts: usize,
+        cancelled: &'a (dyn Fn() -> bool + Sync),
+    ) -> Self {
+        let problem = PeakProblem::new(directions, distribution).unless(cancelled);
+        // Nothing is left of nothing.
+        let left = if distribution.maximum() > 0.0 { 1.0 } else { 0.0 };
+        let best = Fit { rms: left, maximum: left, ..Fit::exact(Vec::new()) };
+        let residual = distribution.values().iter().map(|v| v / problem.scale()).collect();
+        let relative_rms = distribution.relative_rms();
+        Self { problem, directions, cancelled, restarts, best, residual, relative_rms }
+    }
+
+    /// Fits with a peak more: whether that is better. `None` if cancelled.
+    fn add_peak(&mut self) -> Option<bool> {
+        let Some(guess) = first_guess(&self.residual, self.directions) else {
+            return Some(false); // nothing sticks out any more
         };
-        best.iterations += solution.iterations;
-        best.termination = Some(solution.termination);
-        if solution.termination == Termination::Cancelled {
-            return None;
+        let mut start = self.best.peaks.clone();
+        start.push(guess);
+        let fitted = start.len();
+        let mut found = self.solve(start)?;
+        for seed in 1..=self.restarts {
+            let start = self.restart(seed as u64)?;
+            let other = self.solve(start)?;
+            if cost(&other) < cost(&found) {
+                found = other;
+            }
         }
-        let failed = solution.termination == Termination::NotFinite;
-        if failed || (fitted > 1 && solution.cost >= best.cost) {
-            best.failures += 1;
-            break;
+        if let Ok(solution) = &found {
+            self.best.termination = Some(solution.termination);
         }
-        residual = residuals(&problem, &solution.point, directions.count())?;
-        let norm = root_mean_square(&residual) * problem.scale();
-        best.rms = norm / distribution.rms();
-        best.maximum = residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-        (best.peaks, best.cost, best.fitted) = (solution.point, solution.cost, fitted);
+        let better = fitted == 1 || cost(&found) < self.best.cost;
+        let Some(solution) = found.ok().filter(|solution| usable(solution) && better) else {
+            self.best.failures += 1;
+            return Some(false);
+        };
+        self.residual = self.left(&solution.point)?;
+        self.best.rms = root_mean_square(&self.residual) / self.relative_rms;
+        self.best.maximum = self.residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
+        (self.best.peaks, self.best.cost, self.best.fitted) =
+            (solution.point, solution.cost, fitted);
+        Some(true)
     }
-    best.peaks.retain(|peak| peak.amplitude > 0.0);
-    best.peaks.iter_mut().for_each(|peak| peak.amplitude *= problem.scale());
-    Some(best)
+
+    /// The peaks so far, disturbed, and the first guess in what those leave.
+    fn restart(&self, seed: u64) -> Option<Vec<Peak>> {
+        let mut start = disturbed(&self.best.peaks, seed);
+        start.extend(first_guess(&self.left(&start)?, self.directions));
+        Some(start)
+    }
+
+    /// `None` if cancelled.
+    fn solve(&mut self, start: Vec<Peak>) -> Option<Result<Solution<Vec<Peak>>, Error>> {
+        let found =
+            solve(self.problem, LevenbergMarquardt::new(GREEDY_SETTINGS, self.cancelled), start);
+        if let Ok(solution) = &found {
+            self.best.iterations += solution.iterations;
+            if solution.termination == Termination::Cancelled {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    /// distribution − fit at every direction, in units of the distribution's maximum; `None` if
+    /// cancelled.
+    fn left(&self, peaks: &Vec<Peak>) -> Option<Vec<f64>> {
+        let negative = self.problem.apply(peaks).ok()?;
+        Some(negative.iter().take(self.directions.count()).map(|r| -r).collect())
+    }
+
+    /// The fit so far, in the distribution's own units.
+    fn found(&self) -> Fit {
+        let mut fit = self.best.clone();
+        fit.peaks.retain(|peak| peak.amplitude > 0.0);
+        let scale = self.problem.scale();
+        fit.peaks
+            .iter_mut()
+            .for_each(|peak| peak.amplitude = (peak.amplitude * scale).min(f64::MAX));
+        fit
+    }
 }
 
-/// distribution − fit at every direction, in units of the distribution's maximum.
-fn residuals(problem: &PeakProblem<'_>, peaks: &Vec<Peak>, count: usize) -> Option<Vec<f64>> {
-    let negative = problem.apply(peaks).ok()?;
-    Some(negative.iter().take(count).map(|r| -r).collect())
+fn usable(solution: &Solution<Vec<Peak>>) -> bool {
+    solution.termination != Termination::NotFinite
 }
 
-/// A peak at the largest residual, as high as it, with the exponent that its fall-off asks for; `None`
-/// if no residual is positive.
-///
-/// Towards a neighbour at angle γ a peak of exponent n falls by cosⁿγ, so n = ln(N/N₀)/ln cos γ. The
-/// mean over the neighbours weighs each by (1 − cos γ)², as the nearest say the least.
-pub fn first_guess(residual: &[f64], directions: &Directions) -> Option<Peak> {
-    let samples = directions.grid().samples();
-    let highest = |best: usize, i: usize| if residual[i] > residual[best] { i } else { best };
-    let at = (0..residual.len().min(samples.len())).reduce(highest)?;
-    let amplitude = residual[at];
-    if amplitude <= 0.0 {
-        return None;
+/// The cost reached; infinite if none was.
+fn cost(found: &Result<Solution<Vec<Peak>>, Error>) -> f64 {
+    match found {
+        Ok(solution) if usable(solution) => solution.cost,
+        _ => f64::INFINITY,
     }
-    let direction = samples[at].direction;
-    let (mut sum, mut total) = (0.0, 0.0);
-    for i in directions.grid().neighbours(at) {
-        let cosine = direction.dot(&samples[i].direction);
-        if cosine <= 0.0 || cosine >= 1.0 {
-            continue;
-        }
-        // A neighbour at or below 0 fell as far as can be told.
-        let fall = ln64((residual[i] / amplitude).clamp(1e-3, 1.0));
-        let weight = (1.0 - cosine) * (1.0 - cosine);
-        sum += weight * fall / ln64(cosine);
-        total += weight;
-    }
-    let exponent = if total > 0.0 { sum / total } else { 1.0 };
-    Some(Peak { amplitude, direction, exponent: exponent.clamp(0.1, EXPONENTS[1]) })
 }

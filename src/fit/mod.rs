@@ -5,8 +5,10 @@
 //! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
 
 mod channels;
+mod directions;
 mod distribution;
 mod greedy;
+mod guess;
 #[cfg(test)]
 mod independent;
 mod kernel;
@@ -20,8 +22,10 @@ mod solver;
 mod tests;
 
 pub use channels::spread_channels;
-pub use distribution::{Directions, Distribution};
-pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, first_guess, fit, reconstruct};
+pub use directions::Directions;
+pub use distribution::Distribution;
+pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, by_peaks, fit, reconstruct};
+pub use guess::first_guess;
 pub use least_squares::{LeastSquares, NormalEquations};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;

@@ -33,18 +33,26 @@ pub enum InputError {
     /// A sample of a distribution is negative or not finite.
     #[error("sample {index} is {value}: a density must be finite and at least 0")]
     Sample {
-        /// Which, from 0, in the grid's order.
+        /// Which, from 0, in the order of the directions.
         index: usize,
         /// What it is.
         value: f64,
     },
-    /// The number of samples is not the grid's.
-    #[error("{got} samples for a grid of {want} directions: give one sample a direction")]
+    /// The number of samples is not that of the directions.
+    #[error("{got} samples for {want} directions: give one sample a direction")]
     Count {
         /// Samples given.
         got: usize,
-        /// Directions of the grid.
+        /// Directions.
         want: usize,
+    },
+    /// A direction is zero or not finite.
+    #[error("direction {index} is {direction:?}: it must be finite and not zero")]
+    Direction {
+        /// Which, from 0.
+        index: usize,
+        /// What it is.
+        direction: Vec3,
     },
 }
 

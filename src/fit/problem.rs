@@ -12,18 +12,24 @@ use crate::geometry::elementary::{exp64, ln64};
 pub(super) const EXPONENTS: [f64; 2] = [1e-3, 1e4];
 /// The longest step in ln n and in direction: what a linear model can be trusted for.
 const LONGEST: f64 = 1.0;
+/// Chunks between two questions whether the work is cancelled: about a millisecond.
+const CHUNKS_UNASKED: usize = 128;
 
-/// Least squares between a distribution and Σ aᵢ max(0, ω·dᵢ)^nᵢ over the directions of a grid, in
+/// The axes of some directions, and the distribution there.
+type Chunk<'a> = ([&'a [f64; CHUNK]; 3], [f64; CHUNK]);
+
+/// Least squares between a distribution and Σ aᵢ max(0, ω·dᵢ)^nᵢ at some directions, in
 /// units of the distribution's maximum.
 ///
 /// The unknowns of a peak are steps from where it is: (δa, u, v, t) leads to amplitude a + δa, direction
 /// normalise(d + u e₁ + v e₂) and exponent n eᵗ, with e₁, e₂ across d. A chart about the peak itself has
 /// no pole to be singular at, and eᵗ no sign to go wrong. a ≥ 0 and 10⁻³ ≤ n ≤ 10⁴.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct PeakProblem<'a> {
     directions: &'a Directions,
     distribution: &'a Distribution,
     scale: f64,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl<'a> PeakProblem<'a> {
@@ -32,7 +38,13 @@ impl<'a> PeakProblem<'a> {
     pub fn new(directions: &'a Directions, distribution: &'a Distribution) -> Self {
         let maximum = distribution.maximum();
         let scale = if maximum > 0.0 { maximum } else { 1.0 };
-        Self { directions, distribution, scale }
+        Self { directions, distribution, scale, cancelled: &|| false }
+    }
+
+    /// The same problem, which gives up with an error once `cancelled` says so: asked every
+    /// few thousand directions.
+    pub fn unless(self, cancelled: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        Self { cancelled, ..self }
     }
 
     /// The unit of amplitudes: the distribution's maximum, or 1 if that is 0.
@@ -41,11 +53,15 @@ impl<'a> PeakProblem<'a> {
     }
 
     /// Runs over chunks of directions with the distribution there, in units of its maximum.
-    fn chunks(&self) -> impl Iterator<Item = ([&'a [f64; CHUNK]; 3], [f64; CHUNK])> {
-        let (directions, padded, scale) = (self.directions, self.distribution.padded(), self.scale);
+    fn chunks(&self) -> impl Iterator<Item = Result<Chunk<'a>, Error>> {
+        let Self { directions, distribution, scale, cancelled } = *self;
+        let padded = distribution.padded();
         (0..directions.chunks()).map(move |k| {
+            if k % CHUNKS_UNASKED == 0 && cancelled() {
+                return Err(Error::msg("cancelled"));
+            }
             let target = std::array::from_fn(|i| padded[k * CHUNK + i] / scale);
-            (directions.chunk(k), target)
+            Ok((directions.chunk(k), target))
         })
     }
 }
@@ -59,7 +75,8 @@ impl Operator for PeakProblem<'_> {
         let charts: Vec<Chart> = peaks.iter().map(|&p| Chart::about(p)).collect();
         let mut columns = [[0.0; CHUNK]; PER_PEAK];
         let mut residuals = Vec::with_capacity(self.directions.chunks() * CHUNK);
-        for (axes, target) in self.chunks() {
+        for chunk in self.chunks() {
+            let (axes, target) = chunk?;
             let mut residual = target.map(|t| -t);
             for chart in &charts {
                 derive(axes, chart, &mut residual, &mut columns);
@@ -80,7 +97,8 @@ impl Jacobian for PeakProblem<'_> {
         let mut jacobian = DMatrix::zeros(rows, PER_PEAK * peaks.len());
         for (p, &peak) in peaks.iter().enumerate() {
             let chart = Chart::about(peak);
-            for (k, (axes, _)) in self.chunks().enumerate() {
+            for (k, chunk) in self.chunks().enumerate() {
+                let (axes, _) = chunk?;
                 let mut columns = [[0.0; CHUNK]; PER_PEAK];
                 derive(axes, &chart, &mut [0.0; CHUNK], &mut columns);
                 for (c, column) in columns.iter().enumerate() {
@@ -99,7 +117,8 @@ impl LeastSquares<Vec<Peak>> for PeakProblem<'_> {
     fn normal_equations(&self, peaks: &Vec<Peak>) -> Result<NormalEquations, Error> {
         let charts: Vec<Chart> = peaks.iter().map(|&p| Chart::about(p)).collect();
         let mut sums = Sums::new(peaks.len());
-        for (axes, target) in self.chunks() {
+        for chunk in self.chunks() {
+            let (axes, target) = chunk?;
             accumulate_chunk(axes, &target, &charts, &mut sums);
         }
         let count = PER_PEAK * peaks.len();

@@ -112,7 +112,7 @@ pub struct Solution<P> {
 /// Runs the solver on a problem from `start`.
 ///
 /// # Errors
-/// Those of the problem's own functions.
+/// Those of the problem's own functions, unless it is cancelled: then the best point so far is the answer.
 pub fn solve<P, O>(
     problem: O,
     solver: LevenbergMarquardt<'_>,
@@ -153,7 +153,13 @@ where
         mut state: Current<P>,
     ) -> Result<(Current<P>, Option<KV>), Error> {
         let at = state.take_param().ok_or_else(|| Error::msg("no starting point"))?;
-        let equations = evaluate(problem, &at)?;
+        let equations = match evaluate(problem, &at) {
+            Err(_) if (self.cancelled)() => {
+                self.ended = Some(Termination::Cancelled);
+                return Ok((state.param(at).cost(f64::INFINITY), None));
+            }
+            equations => equations?,
+        };
         let cost = equations.cost;
         self.ended = if cost.is_finite() {
             self.converged(&equations)
@@ -173,7 +179,13 @@ where
     ) -> Result<(Current<P>, Option<KV>), Error> {
         let at = state.take_param().ok_or_else(|| Error::msg("no point to step from"))?;
         let mut progress = self.progress.take().ok_or_else(|| Error::msg("not initialised"))?;
-        let next = self.step(problem, &at, &mut progress)?;
+        let next = match self.step(problem, &at, &mut progress) {
+            Err(_) if (self.cancelled)() => {
+                self.ended = Some(Termination::Cancelled);
+                None
+            }
+            next => next?,
+        };
         let cost = progress.equations.cost;
         self.progress = Some(progress);
         Ok((state.param(next.unwrap_or(at)).cost(cost), None))

@@ -33,7 +33,7 @@ fn planted_peaks_are_recovered() {
     let fitted = fit(
         &spread(&three(), &directions),
         &directions,
-        GreedyOptions { max_peaks: 3, stop: 0.0 },
+        GreedyOptions { max_peaks: 3, stop: 0.0, restarts: 0 },
         &|| false,
     )
     .unwrap();
@@ -113,7 +113,7 @@ fn accumulated_normal_equations_are_those_of_the_jacobian() {
 
 /// Cost of the independent solver from a start, on the same samples in the same unit.
 fn independent_cost(distribution: &Distribution, directions: &Directions, start: &[Peak]) -> f64 {
-    let places = directions.grid().samples().iter().map(|s| s.direction).collect();
+    let places = directions.iter().collect();
     let target = distribution.values().iter().map(|v| v / distribution.maximum()).collect();
     let problem = Independent::new(places, target, start);
     let (_, report) = levenberg_marquardt::LevenbergMarquardt::new().minimize(problem);
@@ -180,9 +180,14 @@ fn what_cannot_be_fitted_is_said_or_answered_exactly() {
 fn few_normals_are_kept_as_they_are() {
     let mut normals = three().to_vec();
     normals.extend(three());
-    let fit = reconstruct(&normals, &grid(), GreedyOptions { max_peaks: 3, stop: 0.05 }, &|| false)
-        .unwrap()
-        .unwrap();
+    let fit = reconstruct(
+        &normals,
+        &grid(),
+        GreedyOptions { max_peaks: 3, ..GreedyOptions::default() },
+        &|| false,
+    )
+    .unwrap()
+    .unwrap();
     assert_eq!((fit.peaks.len(), fit.termination, fit.cost), (3, None, 0.0));
     let total: f64 = fit.peaks.iter().map(|p| p.amplitude).sum();
     assert!((total - 2.0 * 2.1).abs() < 1e-12);
@@ -207,7 +212,7 @@ fn a_cancelled_or_bounded_solver_says_so() {
 #[test]
 fn the_first_guess_of_a_single_peak_is_nearly_the_peak() {
     let directions = grid();
-    let direction = directions.grid().samples()[400].direction;
+    let direction = directions.at(400);
     let planted = Peak { amplitude: 2.0, direction, exponent: 33.0 };
     let guess = first_guess(spread(&[planted], &directions).values(), &directions).unwrap();
     assert_eq!((guess.amplitude, guess.direction), (2.0, direction));

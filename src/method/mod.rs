@@ -6,6 +6,7 @@
 
 mod averaged;
 mod batch;
+mod constant;
 pub mod fournier;
 mod lean;
 mod olano_north;
@@ -17,6 +18,7 @@ mod truth;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
+pub use constant::Constant;
 pub use registry::{Entry, brute_force, build, entries, find};
 pub use truth::{Truth, truth};
 

@@ -7,9 +7,12 @@
 //! | `metrics.csv`, `metrics.json` | one row a trial and metric | yes |
 //! | `plots/*.png`, `images/*.png` | what the reports show | yes |
 //! | `costs.csv`, `costs.md` | times and memory | no |
+//!
+//! [`write_evidence`] does the same for what was found about a paper.
 
 mod answer;
 mod axis;
+mod bar;
 mod canvas;
 mod caveats;
 mod chart;
@@ -19,6 +22,8 @@ mod contest;
 mod costs;
 mod curves;
 mod disc;
+mod evidence;
+mod figure;
 mod figures;
 mod files;
 mod font;
@@ -31,6 +36,7 @@ mod ranking;
 mod scale;
 mod sheet;
 mod tables;
+mod template;
 mod tidy;
 mod tone;
 mod words;
@@ -40,6 +46,7 @@ mod fixture;
 
 use std::path::{Path, PathBuf};
 
+pub use evidence::write_evidence;
 pub use files::ReportError;
 
 use crate::experiment::results::{Costs, Results};

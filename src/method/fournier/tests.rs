@@ -68,7 +68,7 @@ fn at_level_0_a_texel_is_the_base_lobe() {
 #[test]
 fn the_kernel_is_the_lobes_bit_by_bit() {
     let most = Fournier {
-        greedy: GreedyOptions { max_peaks: MOST_PEAKS, stop: 0.0 },
+        greedy: GreedyOptions { max_peaks: MOST_PEAKS, stop: 0.0, restarts: 0 },
         rings: 9,
         azimuths: 24,
         rescaled: false,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use crate::fit::{Directions, Peak, spread_channels};
-use crate::geometry::Vec3;
+use crate::geometry::{HemisphereGrid, Vec3};
 use crate::lobe::{Horizon, PhongPeak};
 use crate::method::fournier::lookup::StoredLevel;
 use crate::texture::{HorizonMap, NormalMap, SIDES, tap_weights};
@@ -23,6 +23,8 @@ pub struct Collector<'a> {
     /// The base lobe's exponent, which normals are spread with.
     pub exponent: f64,
     /// Where N is sampled.
+    pub grid: HemisphereGrid,
+    /// The grid's directions.
     pub directions: Directions,
     /// The most distinct normals that a cell keeps as they are.
     pub max_peaks: usize,
@@ -71,7 +73,7 @@ impl Collector<'_> {
             for (peak, sum) in peaks.iter().zip(&mut sums) {
                 let (exponent, direction) = (f64::from(peak.exponent), direction(peak));
                 let shape = Peak { amplitude: 1.0, direction, exponent };
-                for (sample, carried) in self.directions.grid().samples().iter().zip(&spread) {
+                for (sample, carried) in self.grid.samples().iter().zip(&spread) {
                     add(sum, carried, sample.solid_angle * shape.value(sample.direction));
                 }
             }
