@@ -40,6 +40,7 @@ pub use sweep::{Scale, SweepSpec};
 pub use texture::{Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
+use crate::method::Truth;
 use catalogue::Catalogue;
 use limits::Limits;
 use log::Log;
@@ -78,6 +79,12 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// Whether something in it looks at the heights of textures: its truth, or a method.
+    pub fn needs_heights(&self) -> bool {
+        self.reference.truth != Truth::Bumps
+            || self.sweep.methods.iter().any(|method| method.build().needs_heights())
+    }
+
     /// Reads the experiment in a file.
     ///
     /// # Errors
