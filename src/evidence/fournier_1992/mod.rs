@@ -2,6 +2,7 @@
 
 mod f2;
 mod f3;
+mod fast;
 mod horizons;
 mod images;
 mod n1;
@@ -36,5 +37,6 @@ pub const PAPER: Paper = Paper {
         horizons::F13,
         horizons::F14,
         peaks::ROW,
+        fast::ROW,
     ],
 };
