@@ -64,6 +64,7 @@ impl Bar {
                 }
                 self.show(&state, 0.0);
             }
+            RunEvent::Noted { text } => self.bar.suspend(|| anstream::eprintln!("note: {text}")),
             RunEvent::Scored { .. } => {}
         }
     }

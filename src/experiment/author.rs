@@ -16,7 +16,7 @@ use crate::scene::{
     BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
     ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
 };
-use crate::surface::{Plane, Shape, Sphere};
+use crate::surface::{Plane, Shape, Sphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -230,6 +230,7 @@ fn shape(spec: ShapeSpec) -> Shape {
     match spec {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
+        ShapeSpec::Drapery => Shape::Drapery(drapery()),
     }
 }
 

@@ -62,6 +62,7 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
     stage.world.insert_resource(Watch(Arc::new(move |part| of_part(RunEvent::Partly { part }))));
     let plan = author(spec, &mut stage);
     let store = Store::open(folder, &keys::common(spec))?;
+    stage.world.insert_resource(store.shelf());
     let mut run =
         Run { spec, plan: &plan, store: &store, stage: &mut stage, watch, work, left: 0.0 };
     run.announce();
@@ -220,7 +221,9 @@ impl Run<'_> {
     fn keep(&mut self, scene: &PlannedScene, piece: &Progress) -> Result<(), RunError> {
         match *piece {
             Progress::Loaded { .. } | Progress::Rendered { .. } => {}
-            Progress::Prefiltered { prefilter } => self.keep_prefilter(scene, prefilter)?,
+            Progress::Prefiltered { prefilter } => self.keep_prefilter(scene, prefilter, false)?,
+            Progress::Reloaded { prefilter } => self.keep_prefilter(scene, prefilter, true)?,
+            Progress::Noted { ref text } => (self.watch)(RunEvent::Noted { text: text.clone() }),
             Progress::Converged { .. } => self.keep_reference(scene)?,
             Progress::Scored { trial } => self.keep_trial(scene, trial)?,
             Progress::Probed { .. } => self.keep_probes(scene)?,
@@ -228,7 +231,13 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn keep_prefilter(&mut self, scene: &PlannedScene, entity: Entity) -> Result<(), RunError> {
+    /// Keeps what a prefilter cost, whether now or (`reloaded`) when an earlier run built it.
+    fn keep_prefilter(
+        &mut self,
+        scene: &PlannedScene,
+        entity: Entity,
+        reloaded: bool,
+    ) -> Result<(), RunError> {
         let world = &self.stage.world;
         let (Some(built), Some(cost)) =
             (world.get::<Prefilter>(entity), world.get::<BuildCost>(entity))
@@ -245,7 +254,8 @@ impl Run<'_> {
         self.store.keep(&folder, &name, &depends, &record)?;
         // Prefilters are counted beside the scenes, which may share them.
         let work = self.work.prefilter(scene, method);
-        (self.watch)(RunEvent::Advanced { work, kept: record.refusal.is_some() });
+        let kept = reloaded || record.refusal.is_some();
+        (self.watch)(RunEvent::Advanced { work, kept });
         Ok(())
     }
 

@@ -13,11 +13,14 @@ use serde::{Deserialize, Serialize};
 use super::results::{ProbedMethod, Score};
 use crate::file::write_whole;
 use crate::render::{Film, FilmError};
+use crate::scene::Shelf;
 
 /// The folder of an experiment's results.
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: PathBuf,
+    /// Digest of the running program.
+    program: blake3::Hash,
     /// Digest of everything that all records depend on.
     common: blake3::Hash,
 }
@@ -100,10 +103,18 @@ impl Store {
         std::fs::create_dir_all(folder)
             .map_err(|source| StoreError::Write { path: folder.to_owned(), source })?;
         let program = std::env::current_exe().and_then(std::fs::read);
+        let program = blake3::hash(&program.map_err(StoreError::Program)?);
         let mut hasher = blake3::Hasher::new();
-        hasher.update(&program.map_err(StoreError::Program)?);
+        hasher.update(program.as_bytes());
         hasher.update(depends.as_bytes());
-        Ok(Self { folder: folder.to_owned(), common: hasher.finalize() })
+        Ok(Self { folder: folder.to_owned(), program, common: hasher.finalize() })
+    }
+
+    /// Where prefiltered maps are kept. They depend on the program and on what their own keys say, not on
+    /// the rest of the spec.
+    pub fn shelf(&self) -> Shelf {
+        let folder = self.folder.join(".state").join("prefilters");
+        Shelf { folder, program: *self.program.as_bytes() }
     }
 
     /// Where the image of a record is.

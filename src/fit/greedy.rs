@@ -1,10 +1,10 @@
 //! Fournier's procedure: a peak more at a time (1992 §2.3).
 
 use super::distribution::root_mean_square;
-use super::guess::{disturbed, first_guess};
+use super::guess::first_guess;
 use super::solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};
 use super::{Directions, Distribution, InputError, Peak, PeakProblem, merged};
-use argmin::core::{Error, Operator};
+use argmin::core::Operator;
 
 /// The solver's settings in the greedy procedure. Its starts are near, so little damping serves (a third
 /// fewer iterations than τ = 1); and a fit that gains less than 10⁻⁴ of its cost a step is good
@@ -26,8 +26,8 @@ pub struct GreedyOptions {
     pub max_peaks: usize,
     /// Enough if the residual's rms and maximum are both below this part of the distribution's.
     pub stop: f64,
-    /// Further starts tried for each number of peaks, of which the best is kept. 0 is the paper's
-    /// procedure; each costs as much time again.
+    /// How often, at the end, a peak is taken away and set anew where most is left, first the first; kept
+    /// if all then fit better. 0 is the paper's procedure.
     pub restarts: usize,
 }
 
@@ -100,7 +100,8 @@ pub fn reconstruct(
 }
 
 /// Fits peaks to a distribution: the first guess of each is at the largest residual so far, and all
-/// are refitted with it, until the residual is small or there are `max_peaks`. `None` if `cancelled`.
+/// are refitted with it, until the residual is small or there are `max_peaks`; then come the restarts.
+/// `None` if `cancelled`.
 ///
 /// A distribution that is 0 everywhere needs no peaks. A fit that fails leaves the best one before it.
 pub fn fit(
@@ -109,11 +110,14 @@ pub fn fit(
     options: GreedyOptions,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Fit> {
-    let mut search = Search::new(distribution, directions, options.restarts, cancelled);
+    let mut search = Search::new(distribution, directions, cancelled);
     while search.best.fitted < options.max_peaks && !search.best.within(options.stop) {
         if !search.add_peak()? {
             break;
         }
+    }
+    for restart in 0..options.restarts {
+        search.exchange(restart % search.best.fitted.max(1))?;
     }
     Some(search.found())
 }
@@ -127,7 +131,7 @@ pub fn by_peaks(
     max_peaks: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<Fit>> {
-    let mut search = Search::new(distribution, directions, 0, cancelled);
+    let mut search = Search::new(distribution, directions, cancelled);
     let mut fits = Vec::new();
     while fits.len() < max_peaks && search.add_peak()? {
         fits.push(search.found());
@@ -140,7 +144,6 @@ struct Search<'a> {
     problem: PeakProblem<'a>,
     directions: &'a Directions,
     cancelled: &'a (dyn Fn() -> bool + Sync),
-    restarts: usize,
     /// The fit so far, its amplitudes in units of the distribution's maximum.
     best: Fit,
     /// distribution − fit at every direction, in the same units.
@@ -152,7 +155,6 @@ impl<'a> Search<'a> {
     fn new(
         distribution: &'a Distribution,
         directions: &'a Directions,
-        restarts: usize,
         cancelled: &'a (dyn Fn() -> bool + Sync),
     ) -> Self {
         let problem = PeakProblem::new(directions, distribution).unless(cancelled);
@@ -161,7 +163,7 @@ impl<'a> Search<'a> {
         let best = Fit { rms: left, maximum: left, ..Fit::exact(Vec::new()) };
         let residual = distribution.values().iter().map(|v| v / problem.scale()).collect();
         let relative_rms = distribution.relative_rms();
-        Self { problem, directions, cancelled, restarts, best, residual, relative_rms }
+        Self { problem, directions, cancelled, best, residual, relative_rms }
     }
 
     /// Fits with a peak more: whether that is better. `None` if cancelled.
@@ -172,48 +174,57 @@ impl<'a> Search<'a> {
         let mut start = self.best.peaks.clone();
         start.push(guess);
         let fitted = start.len();
-        let mut found = self.solve(start)?;
-        for seed in 1..=self.restarts {
-            let start = self.restart(seed as u64)?;
-            let other = self.solve(start)?;
-            if cost(&other) < cost(&found) {
-                found = other;
-            }
-        }
-        if let Ok(solution) = &found {
+        let found = self.solve(start)?;
+        if let Some(solution) = &found {
             self.best.termination = Some(solution.termination);
         }
-        let better = fitted == 1 || cost(&found) < self.best.cost;
-        let Some(solution) = found.ok().filter(|solution| usable(solution) && better) else {
+        let better = |solution: &Solution<_>| fitted == 1 || solution.cost < self.best.cost;
+        let better = found.filter(|solution| usable(solution) && better(solution));
+        let Some(solution) = better else {
             self.best.failures += 1;
             return Some(false);
         };
-        self.residual = self.left(&solution.point)?;
-        self.best.rms = root_mean_square(&self.residual) / self.relative_rms;
-        self.best.maximum = self.residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-        (self.best.peaks, self.best.cost, self.best.fitted) =
-            (solution.point, solution.cost, fitted);
+        self.best.fitted = fitted;
+        self.keep(solution)?;
         Some(true)
     }
 
-    /// The peaks so far, disturbed, and the first guess in what those leave.
-    fn restart(&self, seed: u64) -> Option<Vec<Peak>> {
-        let mut start = disturbed(&self.best.peaks, seed);
+    /// Exchanges a peak: takes it away, fits the others, adds one where most is left, fits all, and
+    /// keeps what is better. `None` if cancelled.
+    fn exchange(&mut self, peak: usize) -> Option<()> {
+        let mut others = self.best.peaks.clone();
+        if peak >= others.len() {
+            return Some(());
+        }
+        others.remove(peak);
+        let Some(Solution { point: mut start, .. }) = self.solve(others)? else {
+            return Some(());
+        };
         start.extend(first_guess(&self.left(&start)?, self.directions));
-        Some(start)
+        let found = self.solve(start)?;
+        let better = found.filter(|found| usable(found) && found.cost < self.best.cost);
+        better.map_or(Some(()), |solution| self.keep(solution))
     }
 
-    /// `None` if cancelled.
-    fn solve(&mut self, start: Vec<Peak>) -> Option<Result<Solution<Vec<Peak>>, Error>> {
-        let found =
-            solve(self.problem, LevenbergMarquardt::new(GREEDY_SETTINGS, self.cancelled), start);
-        if let Ok(solution) = &found {
+    /// Takes what a fit found for the best. `None` if cancelled.
+    fn keep(&mut self, solution: Solution<Vec<Peak>>) -> Option<()> {
+        self.residual = self.left(&solution.point)?;
+        self.best.rms = root_mean_square(&self.residual) / self.relative_rms;
+        self.best.maximum = self.residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
+        self.best.termination = Some(solution.termination);
+        (self.best.peaks, self.best.cost) = (solution.point, solution.cost);
+        Some(())
+    }
+
+    /// The outer `None` if cancelled, the inner if the solver fails.
+    fn solve(&mut self, start: Vec<Peak>) -> Option<Option<Solution<Vec<Peak>>>> {
+        let solver = LevenbergMarquardt::new(GREEDY_SETTINGS, self.cancelled);
+        let found = solve(self.problem, solver, start).ok();
+        if let Some(solution) = &found {
             self.best.iterations += solution.iterations;
-            if solution.termination == Termination::Cancelled {
-                return None;
-            }
         }
-        Some(found)
+        let ended = found.as_ref().map(|solution| solution.termination);
+        (ended != Some(Termination::Cancelled)).then_some(found)
     }
 
     /// distribution − fit at every direction, in units of the distribution's maximum; `None` if
@@ -237,12 +248,4 @@ impl<'a> Search<'a> {
 
 fn usable(solution: &Solution<Vec<Peak>>) -> bool {
     solution.termination != Termination::NotFinite
-}
-
-/// The cost reached; infinite if none was.
-fn cost(found: &Result<Solution<Vec<Peak>>, Error>) -> f64 {
-    match found {
-        Ok(solution) if usable(solution) => solution.cost,
-        _ => f64::INFINITY,
-    }
 }

@@ -19,6 +19,7 @@ mod pearson;
 mod pedal;
 mod reflection;
 pub mod round;
+mod surface_file;
 pub mod vector;
 
 pub use base::BaseLobe;
@@ -31,3 +32,4 @@ pub use peak::PhongPeak;
 pub use pearson::PearsonLobe;
 pub use pedal::PedalLobe;
 pub use reflection::reflection;
+pub use surface_file::{SurfaceFileError, read_peaks};

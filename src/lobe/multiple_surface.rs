@@ -110,6 +110,18 @@ impl Visibility {
     }
 }
 
+/// A surface of all these lobes.
+///
+/// # Panics
+/// If there are more than [`CAPACITY`]: whoever takes lobes from a user counts them.
+impl<L: Into<Lobe>> FromIterator<L> for MultipleSurface {
+    fn from_iter<I: IntoIterator<Item = L>>(lobes: I) -> Self {
+        let mut surface = Self::new();
+        lobes.into_iter().for_each(|lobe| surface.add(lobe, 1.0));
+        surface
+    }
+}
+
 impl MultipleSurface {
     /// A surface without lobes: it sends no light.
     pub fn new() -> Self {
@@ -142,6 +154,11 @@ impl MultipleSurface {
     pub fn ratioed(mut self) -> Self {
         self.ratioed = true;
         self
+    }
+
+    /// Whether its lobes have horizons: what light they send depends on where it comes from and goes to.
+    pub fn has_horizons(&self) -> bool {
+        !self.horizons.is_empty()
     }
 
     /// The lobes.

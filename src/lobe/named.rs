@@ -22,9 +22,7 @@ impl NamedSurface {
 
     /// The multiple surface.
     pub fn surface(&self) -> MultipleSurface {
-        let mut surface = MultipleSurface::new();
-        self.peaks().into_iter().for_each(|peak| surface.add(peak, 1.0));
-        surface
+        self.peaks().into_iter().collect()
     }
 }
 

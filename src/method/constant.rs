@@ -18,6 +18,10 @@ impl Prefiltered for Constant {
         false
     }
 
+    fn needs_directions(&self) -> bool {
+        self.0.has_horizons()
+    }
+
     fn lobes_at(&self, _: &Footprint) -> MultipleSurface {
         self.0.clone()
     }

@@ -65,6 +65,11 @@ pub enum PrefilterError {
     Cancelled,
 }
 
+/// Why kept bytes are no prefiltered map: what is wrong with them.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Damaged(pub String);
+
 /// How a long prefilter tells how far it is and learns that it should stop.
 pub trait Progress: Sync {
     /// `done` of `total` units of work are done. Called from any thread.
@@ -118,12 +123,33 @@ pub trait Method: Send + Sync + std::fmt::Debug {
         base: &BaseLobe,
         progress: &dyn Progress,
     ) -> Result<Box<dyn Prefiltered>, PrefilterError>;
+
+    /// The prefiltered map whose [`Prefiltered::store`] gave `bytes`, for the same map and base lobe: it
+    /// shades the same, bit by bit. Whoever keeps the bytes sees to it that they are whole and belong to
+    /// this method with these options; any bytes may come, and none make it panic.
+    ///
+    /// # Errors
+    /// [`Damaged`] if the bytes are no such map.
+    fn restore(
+        &self,
+        map: &std::sync::Arc<NormalMap>,
+        base: &BaseLobe,
+        bytes: &[u8],
+    ) -> Result<Box<dyn Prefiltered>, Damaged> {
+        let _ = (map, base, bytes);
+        Err(Damaged(format!("{} keeps no prefiltered maps", self.card().name)))
+    }
 }
 
 /// A normal map made ready by a method.
 pub trait Prefiltered: Send + Sync {
     /// Memory it holds beyond the normal map itself, in bytes.
     fn bytes(&self) -> usize;
+
+    /// What [`Method::restore`] makes this from again; `None` if it is built too fast to be worth keeping.
+    fn store(&self) -> Option<Vec<u8>> {
+        None
+    }
 
     /// Whether it looks at footprints at all; if not, batches come without them.
     fn needs_footprint(&self) -> bool {

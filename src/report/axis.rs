@@ -65,11 +65,11 @@ impl Axis {
     }
 
     /// A linear axis that spans the finite values, from 0 if they lie to one side of it and not far
-    /// off, with about five round ticks.
+    /// off, with up to eight round ticks.
     pub fn linear(values: impl Iterator<Item = f64>) -> Self {
         let finite: Vec<f64> = values.filter(|v| v.is_finite()).collect();
         let [low, high] = extent(&finite);
-        let step = round_step((high - low) / 5.0);
+        let step = round_step((high - low) / 7.0);
         let (first, last) = ((low / step + 1e-9).floor(), (high / step - 1e-9).ceil());
         let tick = |i: i32| {
             let value = (first + f64::from(i)) * step;

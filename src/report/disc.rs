@@ -65,7 +65,9 @@ fn draw(discs: &[Disc], scale: f64) -> Canvas {
     }
     if discs.iter().any(|disc| !disc.own_scale) {
         let bar = [across as f32 * cell[0] + 10.0, 44.0];
-        colour_bar(&mut canvas, bar, [14.0, 2.0 * RADIUS], scale);
+        let common = discs.iter().filter(|disc| !disc.own_scale);
+        let beyond = common.map(greatest).any(|most| most > scale);
+        colour_bar(&mut canvas, bar, [14.0, 2.0 * RADIUS], scale, beyond);
     }
     canvas
 }
@@ -148,9 +150,10 @@ fn cell_at(grid: &HemisphereGrid, x: f64, y: f64) -> Option<u16> {
     Some((1 + ring * grid.azimuths() + azimuth) as u16)
 }
 
-fn colour_bar(canvas: &mut Canvas, [x, y]: Point, size: Point, scale: f64) {
+/// The key to densities; `beyond`, if some exceed the scale.
+fn colour_bar(canvas: &mut Canvas, [x, y]: Point, size: Point, scale: f64, beyond: bool) {
     let label = |share: f64| {
-        let bound = if share == 1.0 { "≥ " } else { "" };
+        let bound = if share == 1.0 && beyond { "≥ " } else { "" };
         (share.sqrt() as f32, format!("{bound}{}", phrase::scale(share * scale)))
     };
     let labels = [0.0f64, 0.0625, 0.25, 0.5625, 1.0].map(label);

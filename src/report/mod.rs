@@ -28,10 +28,12 @@ mod figures;
 mod files;
 mod font;
 mod grid;
+mod lobe_sheet;
 mod mark;
 mod page;
 mod phrase;
 mod png;
+mod polar;
 mod ranking;
 mod scale;
 mod sheet;
@@ -48,6 +50,7 @@ use std::path::{Path, PathBuf};
 
 pub use evidence::write_evidence;
 pub use files::ReportError;
+pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};
 

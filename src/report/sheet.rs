@@ -81,10 +81,7 @@ pub fn frames(scene: &SceneResult, spp: u32) -> Frames {
 
 /// The contact sheet.
 pub fn sheet(frames: &Frames) -> Canvas {
-    let largest = |side: fn(&Picture) -> usize| frames.frames.iter().map(|f| side(&f.image)).max();
-    let (width, height) = (largest(|p| p.width).unwrap_or(1), largest(|p| p.height).unwrap_or(1));
-    let zoom = LEAST.div_ceil(width.max(1)).max(1) as f32;
-    let size = [width as f32 * zoom, height as f32 * zoom];
+    let size = size(frames);
     let errors = frames.frames.iter().any(|f| f.error.is_some());
     let tall = if errors { 2.0 * size[1] + BETWEEN } else { size[1] };
     let cell = [size[0] + GAP, TITLE + tall + GAP];
@@ -101,6 +98,14 @@ pub fn sheet(frames: &Frames) -> Canvas {
         }
     }
     canvas
+}
+
+/// How large its images are shown: a whole number of units a pixel.
+pub fn size(frames: &Frames) -> Point {
+    let largest = |side: fn(&Picture) -> usize| frames.frames.iter().map(|f| side(&f.image)).max();
+    let (width, height) = (largest(|p| p.width).unwrap_or(1), largest(|p| p.height).unwrap_or(1));
+    let zoom = LEAST.div_ceil(width.max(1)).max(1) as f32;
+    [width as f32 * zoom, height as f32 * zoom]
 }
 
 fn draw(canvas: &mut Canvas, frame: &Frame, [x, y]: Point, size: Point) {

@@ -58,6 +58,22 @@ pub const F7: Row = row(
     |task| compare(&F7, task),
 );
 
+/// Figure 8.
+pub const F8: Row = row(
+    "fournier-f8",
+    "Denim texture on drapery, a coarse 11 × 40 grid",
+    &["denim-on-drapery"],
+    |task| {
+        let mut exhibit = compare(&F8, task)?;
+        exhibit.claims.push(Claim::not_applicable(
+            "the shape of the cloth",
+            "a model of Frederic Taillefer's",
+            "the model is lost: the cloth here is another one, on a grid as coarse",
+        ));
+        Ok(exhibit)
+    },
+);
+
 fn compare(row: &Row, task: &Task) -> Result<Exhibit, Halted> {
     let part = task.part(row.parts[0]);
     let mut exhibit = row.exhibit();
@@ -141,12 +157,13 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
 ///
 /// # Panics
 /// If the sweep has none: the experiment's parts are written with the rows.
-fn trial<'a>(scene: &'a SceneResult, method: &str, spp: u32) -> &'a TrialResult {
+pub fn trial<'a>(scene: &'a SceneResult, method: &str, spp: u32) -> &'a TrialResult {
     let found = scene.trials.iter().find(|t| t.method == method && t.spp == spp);
     found.unwrap_or_else(|| panic!("the part has no trial of {method} at {spp} samples"))
 }
 
-fn rmse(trial: &TrialResult) -> f64 {
+/// A trial's root mean square error.
+pub fn rmse(trial: &TrialResult) -> f64 {
     trial.score("rmse").unwrap_or(f64::NAN)
 }
 

@@ -2,6 +2,7 @@
 
 mod f2;
 mod f3;
+mod horizons;
 mod images;
 mod n1;
 mod peaks;
@@ -26,10 +27,14 @@ pub const PAPER: Paper = Paper {
         images::F5,
         images::F6,
         images::F7,
+        images::F8,
         t1::ROW,
         surfaces::F9,
         surfaces::F10,
         surfaces::F11,
+        horizons::F12,
+        horizons::F13,
+        horizons::F14,
         peaks::ROW,
     ],
 };

@@ -1,6 +1,7 @@
 //! The paper's bump maps: geometry seen from above, surface area as weight (§3).
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use crate::fit::{Directions, Distribution, Fit, GreedyOptions, Peak, fit};
 use crate::geometry::{HemisphereGrid, Vec3};
@@ -58,7 +59,11 @@ impl Subject {
             debug_assert!(entry.parameters.iter().any(|p: &Parameter| p.name == name));
             values.set(name, value);
         }
-        (entry.build)(self.side(), self.side(), &values, 1).normals
+        let bumps = (entry.build)(self.side(), self.side(), &values, 1);
+        match bumps.heights {
+            Some(heights) => bumps.normals.with_heights(Arc::new(heights)),
+            None => bumps.normals,
+        }
     }
 }
 

@@ -12,6 +12,8 @@ mod log;
 mod material;
 mod method;
 mod paper;
+#[cfg(test)]
+mod paper_tests;
 mod reader;
 mod reference;
 mod scene;
@@ -136,7 +138,8 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
     let seed = root.whole("seed", 1, 0, i64::MAX as u64);
     let image = root.section("image", "[image]", ImageSpec::read);
     let (surface, tiles) = root.section("surface", "[surface]", |reader| {
-        let shapes = [("plane", Shape::Plane), ("sphere", Shape::Sphere)];
+        let shapes =
+            [("plane", Shape::Plane), ("sphere", Shape::Sphere), ("drapery", Shape::Drapery)];
         let tiles = reader.item("tiles");
         let limits = Limits::above(0.0, 1e6);
         (reader.choice("shape", &shapes), tiles.and_then(|t| Some((t.clone(), t.real(limits)?))))

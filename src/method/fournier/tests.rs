@@ -71,7 +71,6 @@ fn the_kernel_is_the_lobes_bit_by_bit() {
         greedy: GreedyOptions { max_peaks: MOST_PEAKS, stop: 0.0, restarts: 0 },
         rings: 9,
         azimuths: 24,
-        rescaled: false,
         ..Fournier::default()
     };
     for (method, map) in [(Fournier::default(), bumps(11, 6)), (most, bumps(16, 16))] {

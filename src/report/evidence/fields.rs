@@ -14,6 +14,8 @@ const GAP: f32 = 16.0;
 const TITLE: f32 = 26.0;
 /// Room for the colour bar.
 const BAR: f32 = 84.0;
+/// Room below for the note on cells without a value.
+const FOOT: f32 = 16.0;
 /// Most units all fields of a row are wide.
 const ROW: f32 = 900.0;
 
@@ -25,7 +27,10 @@ pub fn draw(fields: &[Field]) -> Canvas {
     let cell = [most(0) + GAP, most(1) + TITLE + GAP];
     let across = ((ROW / cell[0]) as usize).clamp(1, fields.len().max(1));
     let rows = fields.len().div_ceil(across);
-    let mut canvas = Canvas::new(across as f32 * cell[0] + GAP + BAR, rows as f32 * cell[1] + GAP);
+    let none = fields.iter().flat_map(|f| &f.values).any(|v| !v.is_finite());
+    let below = if none { FOOT } else { 0.0 };
+    let height = rows as f32 * cell[1] + GAP + below;
+    let mut canvas = Canvas::new(across as f32 * cell[0] + GAP + BAR, height);
     for (i, (field, size)) in fields.iter().zip(&sizes).enumerate() {
         let (row, column) = (i / across, i % across);
         let [x, y] = [GAP + column as f32 * cell[0], GAP + row as f32 * cell[1]];
@@ -43,8 +48,8 @@ pub fn draw(fields: &[Field]) -> Canvas {
         let labels: Vec<_> =
             labels.map(|tick| (scale.axis.place(tick.value), tick.label.clone())).collect();
         bar::upright(&mut canvas, corner, [14.0, height], |share| scale.share(share), &labels);
-        if fields.iter().flat_map(|f| &f.values).any(|v| !v.is_finite()) {
-            canvas.text([corner[0], corner[1] + height + 20.0], "black: none", SMALL);
+        if none {
+            canvas.text([corner[0], corner[1] + height + 22.0], "black: no value", SMALL);
         }
     }
     canvas

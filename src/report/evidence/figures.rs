@@ -3,12 +3,11 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{fields, file_name, images, plot, polar};
+use super::{fields, file_name, images, plot};
 use crate::evidence::{Drawing, Evidence, Figure, Images};
-use crate::report::disc;
 use crate::report::figure::{self, FrameImages};
-use crate::report::sheet;
 use crate::report::words::DISTRIBUTIONS_ALONE;
+use crate::report::{disc, polar, sheet};
 
 /// A figure as the report shows it.
 #[derive(Serialize)]
@@ -19,8 +18,8 @@ pub struct Drawn {
     reading: String,
     /// The images one by one, for flipping; none for other drawings.
     frames: Vec<FrameImages>,
-    /// Width of the largest image, pixels, and how many stand in a row.
-    pixels: usize,
+    /// How wide the largest image is shown, CSS pixels, and how many stand in a row.
+    wide: usize,
     across: usize,
     /// The images as floats.
     films: Vec<FilmFile>,
@@ -69,7 +68,7 @@ fn draw(row: &str, figure: &Figure) -> Drawn {
         figure: figure::Figure::drawing(file, caption, &canvas),
         reading: reading.into(),
         frames: Vec::new(),
-        pixels: 0,
+        wide: 0,
         across: 1,
         films: Vec::new(),
     }
@@ -89,7 +88,7 @@ fn draw_images(row: &str, panels: &Images, file: String, caption: String) -> Dra
         reading: images::remark(panels, &frames),
         figure: figure::Figure::sheet(file, caption, &sheet::sheet(&frames)),
         frames: frames.frames.iter().map(FrameImages::of).collect(),
-        pixels: frames.frames.iter().map(|f| f.image.width).max().unwrap_or(1),
+        wide: sheet::size(&frames)[0] as usize,
         across: frames.across.min(frames.frames.len()).max(1),
         films: panels.panels.iter().filter_map(film).collect(),
     }

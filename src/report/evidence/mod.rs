@@ -7,7 +7,6 @@ mod figures;
 mod images;
 mod page;
 mod plot;
-mod polar;
 
 #[cfg(test)]
 mod fixture;

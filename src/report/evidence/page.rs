@@ -194,7 +194,7 @@ fn tally(evidence: &Evidence) -> String {
 fn gist(exhibit: &Exhibit) -> String {
     let of = |verdict| exhibit.claims.iter().filter(move |c| c.verdict == verdict);
     let both =
-        |c: &Claim| format!("{}: {} in print, {} here", c.what, shown(&c.paper), shown(&c.here));
+        |c: &Claim| format!("{}: paper {}, here {}", c.what, shown(&c.paper), shown(&c.here));
     let (hold, all) = held(&exhibit.claims);
     if let Some(worst) = of(Verdict::Differs).next() {
         let count = if all > 1 { format!("{hold} of {all} claims hold; ") } else { String::new() };
@@ -204,7 +204,7 @@ fn gist(exhibit: &Exhibit) -> String {
         (Some(first), _) if all > 1 => format!("all {all} claims hold; {}", both(first)),
         (Some(first), _) => both(first),
         (None, Some(first)) => format!("{}: {}", first.what, first.rule),
-        (None, None) => "nothing is claimed".into(),
+        (None, None) => "no claim".into(),
     }
 }
 

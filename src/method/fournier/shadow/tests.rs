@@ -167,7 +167,8 @@ fn a_fitted_peak_collects_by_the_law_of_total_variance() {
             // mean of variances plus the variance of means.
             let (mut total, mut means, mut variances, mut squares) = (0.0, 0.0, 0.0, 0.0);
             for sample in grid.samples() {
-                let each = || normals.iter().map(|n| n.value(sample.direction)).zip(texels.slopes());
+                let each =
+                    || normals.iter().map(|n| n.value(sample.direction)).zip(texels.slopes());
                 let n: f64 = each().map(|(w, _)| w).sum();
                 let mean = each().map(|(w, s)| w * f64::from(s[side])).sum::<f64>() / n;
                 let off = |s: &[f32; 4]| f64::from(s[side]) - mean;

@@ -1,16 +1,18 @@
 //! Reflection in the plane of incidence: polar plots above the line of the surface.
 
+use super::axis::Axis;
+use super::canvas::{Anchor, Canvas, Point, Type};
+use super::chart::{HALF_CAPITAL, SMALL, TEXT};
+use super::colour::{BLACK, GREY, Ink, PALE, series};
+use super::{font, phrase};
 use crate::evidence::{LobePlot, Reflection};
-use crate::report::axis::Axis;
-use crate::report::canvas::{Anchor, Canvas, Point, Type};
-use crate::report::chart::{HALF_CAPITAL, SMALL, TEXT};
-use crate::report::colour::{BLACK, GREY, Ink, PALE, series};
-use crate::report::{font, phrase};
 
 /// Radius of the greatest ring, units.
 const RADIUS: f32 = 150.0;
 const CELL: Point = [384.0, 262.0];
 const ACROSS: usize = 2;
+/// With more rings than these, every second is labelled.
+const MOST_LABELS: usize = 7;
 /// The middle of the surface within a cell.
 const CENTRE: Point = [192.0, 214.0];
 
@@ -42,7 +44,10 @@ fn one(canvas: &mut Canvas, corner: Point, plot: &LobePlot, axis: &Axis) {
         curve(canvas, centre, reflection, axis, ink);
         arrow(canvas, centre, reflection.incidence, ink);
     }
-    key(canvas, [corner[0] + 14.0, corner[1] + CELL[1] - 8.0], plot);
+    let [left, right] = [14.0, CELL[0] - 14.0].map(|x| corner[0] + x);
+    let foot = corner[1] + CELL[1] - 8.0;
+    key(canvas, [left, foot], plot);
+    canvas.text([right, foot], "radiance outwards", Type { anchor: Anchor::End, ..SMALL });
 }
 
 /// The point at an angle from the normal, degrees, and a distance from the middle.
@@ -69,11 +74,14 @@ fn grid(canvas: &mut Canvas, centre: Point, axis: &Axis) {
         let at = [at[0], at[1] + if degrees == 0.0 { 2.0 } else { HALF_CAPITAL * SMALL.size }];
         canvas.text(at, &label, Type { anchor, ..SMALL });
     }
-    for tick in &axis.ticks {
+    let every = if axis.ticks.len() > MOST_LABELS { 2 } else { 1 };
+    for (i, tick) in axis.ticks.iter().enumerate() {
         let radius = RADIUS * axis.place(tick.value);
         canvas.line(&arc(centre, radius), PALE, 0.9, None);
-        let at = [centre[0] + radius, centre[1] + 14.0];
-        canvas.text(at, &tick.label, Type { anchor: Anchor::Middle, size: 10.0, ..SMALL });
+        if i % every == 0 {
+            let at = [centre[0] + radius, centre[1] + 14.0];
+            canvas.text(at, &tick.label, Type { anchor: Anchor::Middle, size: 10.0, ..SMALL });
+        }
     }
     canvas.line(&arc(centre, RADIUS), GREY, 1.0, None);
     let [left, right] = [-1.0, 1.0].map(|side| [centre[0] + side * RADIUS, centre[1]]);
