@@ -10,6 +10,8 @@ mod peaks;
 mod surfaces;
 mod t0;
 mod t1;
+#[cfg(test)]
+mod tests;
 mod textures;
 
 use super::Paper;
