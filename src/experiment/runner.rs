@@ -109,7 +109,7 @@ impl Extent {
 
 /// The texels of each texture, once it is known that it can be had.
 fn texels(spec: &Spec) -> Result<Vec<f64>, RunError> {
-    let count = |texture: &TextureSpec| match load(texture) {
+    let count = |texture: &TextureSpec| match load(texture, spec.needs_heights()) {
         Ok(bumps) => Ok((bumps.normals.width() * bumps.normals.height()) as f64),
         Err(source) => Err(RunError::Texture { texture: texture.name.clone(), source }),
     };

@@ -13,6 +13,7 @@ mod guess;
 mod independent;
 mod kernel;
 mod least_squares;
+mod mixture;
 mod peak;
 mod problem;
 #[cfg(test)]
@@ -27,6 +28,7 @@ pub use distribution::Distribution;
 pub use greedy::{Fit, GREEDY_SETTINGS, GreedyOptions, by_peaks, fit, reconstruct};
 pub use guess::first_guess;
 pub use least_squares::{LeastSquares, NormalEquations};
+pub use mixture::{Mixture, NormalBins, mixture};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;
 pub use solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};

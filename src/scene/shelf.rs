@@ -51,6 +51,9 @@ impl Shelf {
         let form = (map.width(), map.height(), map.wrap(), map.interpolation());
         hasher.update(format!("{form:?} {method:?} {base:?}").as_bytes());
         hasher.update(bytemuck::cast_slice(map.texels()));
+        if let Some(heights) = map.heights() {
+            hasher.update(bytemuck::cast_slice(heights.values()));
+        }
         *hasher.finalize().as_bytes()
     }
 

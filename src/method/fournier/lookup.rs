@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::MOST_PEAKS;
 use super::pyramid::Level;
+use super::{MOST_PEAKS, stored};
 use crate::lobe::BaseLobe;
 use crate::lobe::vector::V3;
 use crate::lobe::{MultipleSurface, PhongPeak, Shading, Spread};
@@ -13,24 +13,21 @@ use crate::method::{Batch, Lane, Prefiltered};
 use crate::texture::{Footprint, NormalMap, Taps};
 
 /// A level as it is looked up: the peaks of all cells in one list.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct StoredLevel {
-    width: usize,
-    height: usize,
+    pub width: usize,
+    pub height: usize,
     /// Where each cell's peaks begin, and the end.
-    starts: Vec<u32>,
-    peaks: Vec<PhongPeak>,
+    pub starts: Vec<u32>,
+    pub peaks: Vec<PhongPeak>,
 }
 
 impl StoredLevel {
     pub(super) fn new(level: &Level) -> Self {
         let mut starts = vec![0];
         let mut peaks = Vec::new();
-        for fit in &level.cells {
-            peaks.extend(fit.peaks.iter().map(|p| PhongPeak {
-                amplitude: p.amplitude as f32,
-                direction: [p.direction.x, p.direction.y, p.direction.z].map(|c| c as f32),
-                exponent: p.exponent as f32,
-            }));
+        for cell in &level.cells {
+            peaks.extend(&cell.peaks);
             starts.push(peaks.len() as u32);
         }
         peaks.shrink_to_fit();
@@ -152,6 +149,10 @@ fn ends(taps: Taps) -> [(usize, f32); 2] {
 impl Prefiltered for PeakMap {
     fn bytes(&self) -> usize {
         self.levels.iter().map(StoredLevel::bytes).sum()
+    }
+
+    fn store(&self) -> Option<Vec<u8>> {
+        Some(stored::to_bytes(&self.levels, &[]))
     }
 
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {

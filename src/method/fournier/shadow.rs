@@ -7,6 +7,7 @@ pub(super) use collect::Collector;
 use collect::collect;
 
 use super::lookup::{PeakAt, PeakMap, Slots};
+use super::stored;
 use crate::lobe::{EllipticLobe, Horizon, MultipleSurface, PhongPeak, Shading, Spread, Visibility};
 use crate::method::one_lobe::{filtered_share, unfiltered_lobe};
 use crate::method::{Batch, Lane, Prefiltered};
@@ -63,6 +64,10 @@ impl Prefiltered for ShadowedPeakMap {
     fn bytes(&self) -> usize {
         let table: usize = self.levels.iter().map(|level| size_of_val(level.as_slice())).sum();
         self.peaks.bytes() + self.texels.bytes() + table
+    }
+
+    fn store(&self) -> Option<Vec<u8>> {
+        Some(stored::to_bytes(&self.peaks.levels, &self.levels))
     }
 
     fn needs_directions(&self) -> bool {
@@ -132,3 +137,6 @@ pub(super) fn shadowed(
         peaks.levels.iter().map(|level| collect(&collector, level)).collect();
     Some(ShadowedPeakMap { levels: levels?, texels: collector.texels, peaks, ratioed })
 }
+
+#[cfg(test)]
+mod tests;
