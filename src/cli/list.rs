@@ -12,9 +12,10 @@ use crate::parameter::{Domain, Parameter};
 use crate::{lobe, method, pattern};
 
 /// Surfaces, with what they are.
-const SURFACES: [(&str, &str); 2] = [
+const SURFACES: [(&str, &str); 3] = [
     ("plane", "the plane z = 0, tiled without end"),
     ("sphere", "the unit sphere, u along longitude and v along latitude"),
+    ("drapery", "a coarse cloth that hangs in folds, u across them and v up"),
 ];
 
 /// Prints experiments, methods, patterns, surfaces and multiple surfaces.

@@ -157,7 +157,7 @@ mod tests {
     fn errors_name_the_file_the_place_and_the_way_out() {
         let z = "[0, 0, 1]";
         for (text, says) in [
-            ("{\"peaks\": [\n{\"amplitude\": 1,}]}".into(), "line 2 column 16"),
+            ("{\"peaks\": [\n{\"amplitude\": 1,}]}".into(), "line 2 column 17"),
             ("{}".into(), "missing field `peaks`"),
             ("[1, 2".into(), "line 1"),
             (String::new(), "line 1 column 0"),

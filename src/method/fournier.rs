@@ -238,11 +238,13 @@ impl Method for Fournier {
         if self.shadowing == Shadowing::None {
             return Ok(Box::new(peaks));
         }
+        let grid = HemisphereGrid::new(self.rings, self.azimuths);
         let collector = shadow::Collector {
             map,
             texels: HorizonMap::of(&map.heights_or_integrated()),
             exponent,
-            directions: Directions::new(HemisphereGrid::new(self.rings, self.azimuths)),
+            directions: Directions::new(grid.clone()),
+            grid,
             max_peaks: self.greedy.max_peaks,
             cancelled: &|| progress.cancelled(),
         };

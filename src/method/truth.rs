@@ -32,6 +32,17 @@ impl Truth {
             Self::Relief => "relief",
         }
     }
+
+    /// What a reference shows where it is not the bumps alone, to go on a sentence.
+    pub fn meaning(self) -> Option<&'static str> {
+        match self {
+            Self::Bumps => None,
+            Self::Masked => Some("the bumps dark where their heights hide them from light or eye"),
+            Self::Relief => {
+                Some("the heights themselves, as rays from the eye and to the light meet them")
+            }
+        }
+    }
 }
 
 /// The map that, with many samples a pixel, converges to a truth. Heights are the map's own, or else

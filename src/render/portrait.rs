@@ -8,7 +8,7 @@ use crate::surface::{Plane, Shape, Sphere};
 use crate::texture::Wrap;
 
 /// How the picture is taken: one directional light of irradiance 1, a camera that looks at the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Portrait {
     /// What the surface covers.
     pub shape: Shape,
@@ -51,7 +51,7 @@ impl Portrait {
     pub fn of(&self, surface: MultipleSurface) -> Film {
         let view = View {
             camera: self.camera,
-            surface: self.shape,
+            surface: self.shape.clone(),
             light: self.light,
             shading: self.shading,
             wrap: Wrap::Repeat,

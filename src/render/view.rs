@@ -11,7 +11,7 @@ use super::Camera;
 
 /// A surface under a light before a camera. What is *on* the surface, the prefiltered map, comes
 /// apart.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct View {
     /// The camera.
     pub camera: Camera,
@@ -31,7 +31,7 @@ impl View {
         let (camera, ray) = (&self.camera, self.camera.ray(x, y));
         let hit = self.surface.intersect(camera.origin(), ray)?;
         let [along_x, along_y] = camera.ray_steps().map(|step| {
-            let moved = displacement(ray, step, hit.t, hit.frame.normal);
+            let moved = displacement(ray, step, hit.t, hit.plane);
             hit.gradient.map(|g| g.dot(&moved) as f32)
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
@@ -74,9 +74,10 @@ struct Points<'a> {
 
 impl Points<'_> {
     fn fill<const DIRECTIONS: bool, const FOOTPRINTS: bool>(self) {
-        match self.view.surface {
-            Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(plane),
-            Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(sphere),
+        match &self.view.surface {
+            Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*plane),
+            Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*sphere),
+            Shape::Drapery(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
         }
     }
 
@@ -132,7 +133,7 @@ where
             }
             if FOOTPRINTS {
                 for (axis, step) in steps.iter().enumerate() {
-                    let moved = displacement(ray, *step, hit.t, frame.normal) * spacing;
+                    let moved = displacement(ray, *step, hit.t, hit.plane) * spacing;
                     for c in 0..2 {
                         batch.jacobian[2 * axis + c][i] = hit.gradient[c].dot(&moved) as f32;
                     }

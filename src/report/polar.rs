@@ -11,6 +11,8 @@ use crate::evidence::{LobePlot, Reflection};
 const RADIUS: f32 = 150.0;
 const CELL: Point = [384.0, 262.0];
 const ACROSS: usize = 2;
+/// With more rings than these, every second is labelled.
+const MOST_LABELS: usize = 7;
 /// The middle of the surface within a cell.
 const CENTRE: Point = [192.0, 214.0];
 
@@ -72,11 +74,14 @@ fn grid(canvas: &mut Canvas, centre: Point, axis: &Axis) {
         let at = [at[0], at[1] + if degrees == 0.0 { 2.0 } else { HALF_CAPITAL * SMALL.size }];
         canvas.text(at, &label, Type { anchor, ..SMALL });
     }
-    for tick in &axis.ticks {
+    let every = if axis.ticks.len() > MOST_LABELS { 2 } else { 1 };
+    for (i, tick) in axis.ticks.iter().enumerate() {
         let radius = RADIUS * axis.place(tick.value);
         canvas.line(&arc(centre, radius), PALE, 0.9, None);
-        let at = [centre[0] + radius, centre[1] + 14.0];
-        canvas.text(at, &tick.label, Type { anchor: Anchor::Middle, size: 10.0, ..SMALL });
+        if i % every == 0 {
+            let at = [centre[0] + radius, centre[1] + 14.0];
+            canvas.text(at, &tick.label, Type { anchor: Anchor::Middle, size: 10.0, ..SMALL });
+        }
     }
     canvas.line(&arc(centre, RADIUS), GREY, 1.0, None);
     let [left, right] = [-1.0, 1.0].map(|side| [centre[0] + side * RADIUS, centre[1]]);

@@ -9,6 +9,7 @@ use super::font;
 use super::phrase;
 use super::tone;
 use crate::experiment::results::{Picture, SceneResult};
+use crate::method::Truth;
 
 /// Most images in a row.
 const ACROSS: usize = 4;
@@ -54,7 +55,10 @@ pub fn frames(scene: &SceneResult, spp: u32) -> Frames {
     let full = median(sizes, |v| v).filter(|v| *v > 0.0).unwrap_or(white);
     let first = Frame {
         label: "reference".into(),
-        remark: format!("{} samples", reference.spp),
+        remark: match reference.truth {
+            Truth::Bumps => format!("{} samples", reference.spp),
+            truth => format!("{} samples, {}", reference.spp, truth.name()),
+        },
         image: tone::picture(&reference.film, white),
         error: None,
     };

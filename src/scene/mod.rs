@@ -33,6 +33,7 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, SingleThreadedExecutor
 
 use crate::light::Light;
 use crate::lobe::{BaseLobe, Shading};
+use crate::method::Truth;
 use crate::render::Camera;
 use crate::surface::Shape;
 
@@ -61,7 +62,7 @@ pub struct Material {
 }
 
 /// The form of a surface, not yet tiled.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Debug)]
 pub struct SurfaceShape(pub Shape);
 
 /// A camera, placed.
@@ -105,6 +106,8 @@ pub struct ReferencePlan {
     pub spp: u32,
     /// Independent replicates, at least 2.
     pub replicates: u32,
+    /// What it shows of the bumps.
+    pub truth: Truth,
 }
 
 /// Image points (pixels) whose footprints' distributions are looked at.

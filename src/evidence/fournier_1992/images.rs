@@ -58,6 +58,22 @@ pub const F7: Row = row(
     |task| compare(&F7, task),
 );
 
+/// Figure 8.
+pub const F8: Row = row(
+    "fournier-f8",
+    "Denim texture on drapery, a coarse 11 × 40 grid",
+    &["denim-on-drapery"],
+    |task| {
+        let mut exhibit = compare(&F8, task)?;
+        exhibit.claims.push(Claim::not_applicable(
+            "the shape of the cloth",
+            "a model of Frederic Taillefer's",
+            "the model is lost: the cloth here is another one, on a grid as coarse",
+        ));
+        Ok(exhibit)
+    },
+);
+
 fn compare(row: &Row, task: &Task) -> Result<Exhibit, Halted> {
     let part = task.part(row.parts[0]);
     let mut exhibit = row.exhibit();

@@ -2,6 +2,7 @@
 
 mod f2;
 mod f3;
+mod fast;
 mod horizons;
 mod images;
 mod n1;
@@ -9,6 +10,8 @@ mod peaks;
 mod surfaces;
 mod t0;
 mod t1;
+#[cfg(test)]
+mod tests;
 mod textures;
 
 use super::Paper;
@@ -27,6 +30,7 @@ pub const PAPER: Paper = Paper {
         images::F5,
         images::F6,
         images::F7,
+        images::F8,
         t1::ROW,
         surfaces::F9,
         surfaces::F10,
@@ -35,5 +39,6 @@ pub const PAPER: Paper = Paper {
         horizons::F13,
         horizons::F14,
         peaks::ROW,
+        fast::ROW,
     ],
 };

@@ -40,6 +40,7 @@ pub use sweep::{Scale, SweepSpec};
 pub use texture::{Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
+use crate::method::Truth;
 use catalogue::Catalogue;
 use limits::Limits;
 use log::Log;
@@ -78,6 +79,12 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// Whether something in it looks at the heights of textures: its truth, or a method.
+    pub fn needs_heights(&self) -> bool {
+        self.reference.truth != Truth::Bumps
+            || self.sweep.methods.iter().any(|method| method.build().needs_heights())
+    }
+
     /// Reads the experiment in a file.
     ///
     /// # Errors
@@ -131,7 +138,8 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
     let seed = root.whole("seed", 1, 0, i64::MAX as u64);
     let image = root.section("image", "[image]", ImageSpec::read);
     let (surface, tiles) = root.section("surface", "[surface]", |reader| {
-        let shapes = [("plane", Shape::Plane), ("sphere", Shape::Sphere)];
+        let shapes =
+            [("plane", Shape::Plane), ("sphere", Shape::Sphere), ("drapery", Shape::Drapery)];
         let tiles = reader.item("tiles");
         let limits = Limits::above(0.0, 1e6);
         (reader.choice("shape", &shapes), tiles.and_then(|t| Some((t.clone(), t.real(limits)?))))

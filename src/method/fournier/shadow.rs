@@ -137,3 +137,6 @@ pub(super) fn shadowed(
         peaks.levels.iter().map(|level| collect(&collector, level)).collect();
     Some(ShadowedPeakMap { levels: levels?, texels: collector.texels, peaks, ratioed })
 }
+
+#[cfg(test)]
+mod tests;

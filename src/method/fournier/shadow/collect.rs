@@ -23,6 +23,8 @@ pub struct Collector<'a> {
     /// The base lobe's exponent, which normals are spread with.
     pub exponent: f64,
     /// Where N is sampled.
+    pub grid: HemisphereGrid,
+    /// The grid's directions.
     pub directions: Directions,
     /// The most distinct normals that a cell keeps as they are.
     pub max_peaks: usize,
@@ -71,8 +73,7 @@ impl Collector<'_> {
             for (peak, sum) in peaks.iter().zip(&mut sums) {
                 let (exponent, direction) = (f64::from(peak.exponent), direction(peak));
                 let shape = Peak { amplitude: 1.0, direction, exponent };
-                let samples = self.directions.grid().into_iter().flat_map(HemisphereGrid::samples);
-                for (sample, carried) in samples.zip(&spread) {
+                for (sample, carried) in self.grid.samples().iter().zip(&spread) {
                     add(sum, carried, sample.solid_angle * shape.value(sample.direction));
                 }
             }
