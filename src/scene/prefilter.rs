@@ -29,7 +29,10 @@ pub struct PrefilterOf {
 
 /// A prefilter that was built, or the reason why it cannot be.
 #[derive(Component, Clone)]
-pub struct Prefilter(pub Result<Arc<dyn Prefiltered>, Refusal>);
+pub struct Prefilter(pub Built);
+
+/// A prefiltered map, or why the method does not take the base lobe.
+pub type Built = Result<Arc<dyn Prefiltered>, Refusal>;
 
 /// What building it took, in this run or in the one that put it on the [`Shelf`].
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
@@ -50,9 +53,8 @@ fn prepare(
     mut commands: Commands,
     current: Res<Current>,
     (halt, watch, shelf): (Res<Halt>, Res<Watch>, Option<Res<Shelf>>),
-    scenes: Query<&SceneOf>,
+    (scenes, names): (Query<&SceneOf>, Query<&Name>),
     (maps, strategies, materials): (Query<&Map>, Query<&Strategy>, Query<&Material>),
-    names: Query<&Name>,
     pending: Query<(Entity, &PrefilterOf), Without<Prefilter>>,
     mut progress: MessageWriter<Progress>,
 ) {
@@ -81,7 +83,7 @@ fn prepare(
             None
         })
     });
-    if let Some((prefiltered, cost)) = reloaded {
+    if let Some(Reloaded { prefiltered, cost }) = reloaded {
         commands.entity(prefilter).insert((Prefilter(Ok(prefiltered)), cost));
         progress.write(Progress::Reloaded { prefilter });
         return;
@@ -106,17 +108,13 @@ struct Order<'a> {
 
 impl Order<'_> {
     /// Builds it; `None` if it was halted.
-    fn build(
-        &self,
-        onlooker: &Onlooker,
-    ) -> Option<(Result<Arc<dyn Prefiltered>, Refusal>, BuildCost)> {
+    fn build(&self, onlooker: &Onlooker) -> Option<(Built, BuildCost)> {
         let start = Instant::now();
-        let built: Result<Arc<dyn Prefiltered>, Refusal> =
-            match self.method.prefilter(self.map, self.base, onlooker) {
-                Ok(prefiltered) => Ok(Arc::from(prefiltered)),
-                Err(PrefilterError::Refused(refusal)) => Err(refusal),
-                Err(PrefilterError::Cancelled) => return None,
-            };
+        let built: Built = match self.method.prefilter(self.map, self.base, onlooker) {
+            Ok(prefiltered) => Ok(Arc::from(prefiltered)),
+            Err(PrefilterError::Refused(refusal)) => Err(refusal),
+            Err(PrefilterError::Cancelled) => return None,
+        };
         let secs = start.elapsed().as_secs_f64();
         let bytes = built.as_ref().map_or(0, |prefiltered| prefiltered.bytes());
         Some((built, BuildCost { secs, bytes }))
@@ -129,9 +127,15 @@ struct Place<'a> {
     path: PathBuf,
 }
 
+/// What stood on the shelf.
+struct Reloaded {
+    prefiltered: Arc<dyn Prefiltered>,
+    cost: BuildCost,
+}
+
 impl Place<'_> {
     /// The prefilter and what building it took, if it stands there.
-    fn reload(&self, order: &Order) -> Result<Option<(Arc<dyn Prefiltered>, BuildCost)>, Damaged> {
+    fn reload(&self, order: &Order) -> Result<Option<Reloaded>, Damaged> {
         // Most methods keep nothing: spare them the digest of the map.
         if !self.path.exists() {
             return Ok(None);
@@ -140,7 +144,7 @@ impl Place<'_> {
         let Some(kept) = self.shelf.find(&self.path, &key)? else { return Ok(None) };
         let restored = order.method.restore(order.map, order.base, &kept.bytes)?;
         let cost = BuildCost { secs: kept.secs, bytes: restored.bytes() };
-        Ok(Some((Arc::from(restored), cost)))
+        Ok(Some(Reloaded { prefiltered: Arc::from(restored), cost }))
     }
 
     /// Puts a prefilter there, if it is of a kind that is kept.
