@@ -54,8 +54,18 @@ pub fn gather(
     halt: &Halt,
     watch: &Watcher,
 ) -> Result<Gathered, RunError> {
-    let start = Instant::now();
     let paper = super::find(spec.paper).expect("specs name papers there are");
+    gather_rows(paper, spec, folder, halt, watch)
+}
+
+fn gather_rows(
+    paper: &Paper,
+    spec: &PaperSpec,
+    folder: &Path,
+    halt: &Halt,
+    watch: &Watcher,
+) -> Result<Gathered, RunError> {
+    let start = Instant::now();
     announce(spec, paper, watch)?;
     let mut parts = Vec::new();
     for part in &spec.parts {
@@ -226,5 +236,71 @@ impl Exhibit {
                 _ => &[],
             })
             .filter_map(|panel| Some((panel.name.as_str(), panel.film.as_ref()?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::evidence::{Claim, Figure, Images};
+    use crate::experiment::runner::unwatched;
+    use crate::parameter::Values;
+
+    static MADE: AtomicUsize = AtomicUsize::new(0);
+
+    fn make(task: &Task) -> Result<Exhibit, super::super::Halted> {
+        task.go_on()?;
+        MADE.fetch_add(1, Ordering::Relaxed);
+        let film = Arc::new(Film::new(2, 1, vec![0.25, 1.5]));
+        let panels = vec![Panel::new("only", "only", film)];
+        let images = Images { panels, white: None, reference: None, across: 1 };
+        let mut exhibit = ROW.exhibit();
+        exhibit.claims = vec![Claim::count("rows", 1, 1), Claim::near("π", 3.0, 3.125, 0.1)];
+        exhibit.figures = vec![Figure::new("images", "One image.", Drawing::Images(images))];
+        Ok(exhibit)
+    }
+
+    const ROW: Row =
+        Row { name: "bumps-f1", title: "Bumps", parts: &[], parameters: &[], secs: 0.0, make };
+    const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
+
+    fn spec() -> PaperSpec {
+        PaperSpec {
+            name: "bumps".into(),
+            title: "Bumps".into(),
+            question: String::new(),
+            seed: 1,
+            paper: "bumps-1990",
+            rows: vec![RowSpec { row: "bumps-f1", values: Values::default() }],
+            parts: vec![],
+            text: String::new(),
+        }
+    }
+
+    fn exhibits(spec: &PaperSpec, folder: &Path) -> Vec<Exhibit> {
+        match gather_rows(&PAPER, spec, folder, &Halt::default(), &unwatched()).unwrap() {
+            Gathered::Finished(found) => found.evidence.exhibits,
+            Gathered::Halted => panic!("nothing halts it"),
+        }
+    }
+
+    #[test]
+    fn finished_rows_are_taken_up_and_damaged_ones_made_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let halted = Halt(Arc::new(AtomicBool::new(true)));
+        let stopped = gather_rows(&PAPER, &spec(), folder.path(), &halted, &unwatched()).unwrap();
+        assert!(matches!(stopped, Gathered::Halted));
+        let first = exhibits(&spec(), folder.path());
+        assert_eq!(exhibits(&spec(), folder.path()), first);
+        assert_eq!(MADE.load(Ordering::Relaxed), 1, "the second run takes the row up");
+        // Another seed, or a film that is not the record's: made again.
+        exhibits(&PaperSpec { seed: 2, ..spec() }, folder.path());
+        assert_eq!(MADE.load(Ordering::Relaxed), 2);
+        let film = Film::new(2, 1, vec![0.0, 0.0]);
+        film.write_exr(&folder.path().join("images/bumps-f1/only.exr")).unwrap();
+        assert_eq!(exhibits(&PaperSpec { seed: 2, ..spec() }, folder.path()), first);
+        assert_eq!(MADE.load(Ordering::Relaxed), 3);
     }
 }

@@ -79,6 +79,22 @@ impl Axis {
         Self { log: false, low: first * step, high: last * step, ticks }
     }
 
+    /// The same, if it is linear, cut to the values it is for; ticks beyond them are left out.
+    pub fn cut_to(mut self, values: impl Iterator<Item = f64>) -> Self {
+        let finite: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+        let least = finite.iter().copied().reduce(f64::min);
+        let most = finite.iter().copied().reduce(f64::max);
+        if let (false, Some(low), Some(high)) = (self.log, least, most) {
+            let inside = low - 1e-9 * (high - low)..=high + 1e-9 * (high - low);
+            let seen = self.ticks.iter().filter(|tick| inside.contains(&tick.value)).count();
+            if low < high && seen > 1 {
+                self.ticks.retain(|tick| inside.contains(&tick.value));
+                (self.low, self.high) = (low, high);
+            }
+        }
+        self
+    }
+
     /// Whether a value has a place on it.
     pub fn shows(&self, value: f64) -> bool {
         if self.log { value > 0.0 } else { value.is_finite() }
@@ -188,6 +204,9 @@ mod tests {
         let of = |values: &[f64]| Axis::linear(values.iter().copied());
         assert_eq!(labels(&of(&[0.1, 0.93])), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(labels(&of(&[-1.0, 3.0])), ["−1", "0", "1", "2", "3"]);
+        let cut = of(&[1.0, 7.0]).cut_to([1.0, 7.0].into_iter());
+        assert_eq!(labels(&cut), ["1", "2", "3", "4", "5", "6", "7"]);
+        assert_eq!((cut.place(1.0), cut.place(7.0)), (0.0, 1.0));
         for values in [vec![], vec![0.0], vec![-4.0], vec![f64::NAN], vec![1e308, -1e308]] {
             let axis = of(&values);
             assert!(axis.low < axis.high && (2..30).contains(&axis.ticks.len()), "{values:?}");

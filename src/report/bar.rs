@@ -1,7 +1,7 @@
 //! Colour bars: the keys to false colours.
 
 use super::canvas::{Anchor, Canvas, Point, Type};
-use super::chart::{HALF_CAPITAL, SMALL};
+use super::chart::SMALL;
 use super::colour::GREY;
 use crate::experiment::results::Picture;
 
@@ -20,7 +20,7 @@ pub fn upright(
     for (share, label) in labels {
         let at = y + height * (1.0 - share);
         canvas.line(&[[x + width, at], [x + width + 4.0, at]], GREY, 1.0, None);
-        canvas.text([x + width + 7.0, at + HALF_CAPITAL * SMALL.size], label, SMALL);
+        canvas.text([x + width + 7.0, at + 4.0], label, SMALL);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod f2;
 mod f3;
+mod fast;
 mod horizons;
 mod images;
 mod n1;
@@ -9,6 +10,8 @@ mod peaks;
 mod surfaces;
 mod t0;
 mod t1;
+#[cfg(test)]
+mod tests;
 mod textures;
 
 use super::Paper;
@@ -36,5 +39,6 @@ pub const PAPER: Paper = Paper {
         horizons::F13,
         horizons::F14,
         peaks::ROW,
+        fast::ROW,
     ],
 };

@@ -14,7 +14,7 @@ use crate::report::{disc, polar, sheet};
 pub struct Drawn {
     /// The drawing, or the contact sheet of the images.
     figure: figure::Figure,
-    /// How to read it; may be empty.
+    /// How to read it; empty if that has been said of an earlier figure of the row.
     reading: String,
     /// The images one by one, for flipping; none for other drawings.
     frames: Vec<FrameImages>,
@@ -49,8 +49,19 @@ pub fn of(evidence: &Evidence) -> Vec<Vec<Drawn>> {
     // One by one in parallel, kept in order.
     let drawn: Vec<Drawn> = all.par_iter().map(|(row, figure)| draw(row, figure)).collect();
     let mut drawn = drawn.into_iter();
-    let of_row = |figures: &Vec<Figure>| drawn.by_ref().take(figures.len()).collect();
+    let of_row = |figures: &Vec<Figure>| said_once(drawn.by_ref().take(figures.len()).collect());
     evidence.exhibits.iter().map(|exhibit| &exhibit.figures).map(of_row).collect()
+}
+
+/// Leaves out of each figure what an earlier one says of reading it.
+fn said_once(mut figures: Vec<Drawn>) -> Vec<Drawn> {
+    for i in (1..figures.len()).rev() {
+        let (before, rest) = figures.split_at_mut(i);
+        if before.iter().any(|figure| figure.reading == rest[0].reading) {
+            rest[0].reading.clear();
+        }
+    }
+    figures
 }
 
 fn draw(row: &str, figure: &Figure) -> Drawn {

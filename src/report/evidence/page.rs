@@ -201,7 +201,8 @@ fn gist(exhibit: &Exhibit) -> String {
         return count + &both(worst);
     }
     match (of(Verdict::Reproduced).next(), of(Verdict::NotApplicable).next()) {
-        (Some(first), _) if all > 1 => format!("all {all} claims hold; {}", both(first)),
+        (Some(first), _) if all == 2 => format!("both claims hold; {}", both(first)),
+        (Some(first), _) if all > 2 => format!("all {all} claims hold; {}", both(first)),
         (Some(first), _) => both(first),
         (None, Some(first)) => format!("{}: {}", first.what, first.rule),
         (None, None) => "no claim".into(),

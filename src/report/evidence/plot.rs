@@ -12,7 +12,7 @@ use crate::report::mark::{legend, mark};
 const SIZE: [f32; 2] = [520.0, 300.0];
 const LEFT: f32 = 70.0;
 const BELOW: f32 = 52.0;
-/// Curves with more points than these are drawn without their markers.
+/// Curves with more points than these have a few markers only.
 const MARKED: usize = 24;
 /// Names longer than this are cut, units.
 const NAME: f32 = 240.0;
@@ -25,9 +25,10 @@ pub fn draw(chart: &Chart) -> Canvas {
         let values = points().filter(finite).map(|p| p[c]);
         if axis.log { Axis::decades(values) } else { Axis::linear(values) }
     };
-    let (x, y) = (axis(&chart.x, 0), axis(&chart.y, 1));
+    let across = points().filter(finite).map(|p| p[0]);
+    let (x, y) = (axis(&chart.x, 0).cut_to(across), axis(&chart.y, 1));
     let names: Vec<(String, Style)> = chart.series.iter().enumerate().map(named).collect();
-    let beside = chart.series.iter().all(|s| ends_right(s, &x)) && names.len() * 16 < 300;
+    let beside = ends_apart(chart, &x, &y);
     let widest = names.iter().map(|(name, _)| font::width(name, TEXT.size, false));
     let right = if beside { 36.0 + widest.fold(0.0, f32::max) } else { 24.0 };
     let key =
@@ -36,8 +37,9 @@ pub fn draw(chart: &Chart) -> Canvas {
     let mut canvas = Canvas::new(LEFT + SIZE[0] + right, corner[1] + SIZE[1] + BELOW);
     let panel = Panel { corner, size: SIZE, x, y };
     panel.draw(&mut canvas, (true, true));
-    for (series, (_, style)) in chart.series.iter().zip(&names) {
-        draw_series(&mut canvas, &panel, series, *style);
+    for (i, (series, (_, style))) in chart.series.iter().zip(&names).enumerate() {
+        let shift = (i as f32 + 0.5) / names.len() as f32;
+        draw_series(&mut canvas, &panel, series, *style, shift);
     }
     if beside {
         let ends = chart.series.iter().zip(names);
@@ -69,10 +71,20 @@ fn named((i, of): (usize, &Series)) -> (String, Style) {
     (font::fitted(&of.label, TEXT.size, false, NAME), series(i))
 }
 
-/// Whether a series is a curve that ends near the right edge, where its name can stand.
-fn ends_right(series: &Series, x: &Axis) -> bool {
-    let last = series.points.iter().rfind(|p| x.shows(p[0]) && p[1].is_finite());
-    series.joined && last.is_some_and(|p| x.place(p[0]) > 0.7)
+/// Whether all series are curves that end near the right edge and apart from each other, so that their
+/// names can stand there.
+fn ends_apart(chart: &Chart, x: &Axis, y: &Axis) -> bool {
+    /// The least distance, as a part of the height.
+    const APART: f32 = 0.03;
+    let end = |series: &Series| {
+        let last = series.points.iter().rfind(|p| x.shows(p[0]) && y.shows(p[1]))?;
+        (series.joined && x.place(last[0]) > 0.7).then(|| y.place(last[1]))
+    };
+    let Some(mut ends) = chart.series.iter().map(end).collect::<Option<Vec<f32>>>() else {
+        return false;
+    };
+    ends.sort_by(f32::total_cmp);
+    ends.windows(2).all(|pair| pair[1] - pair[0] > APART)
 }
 
 fn shown<'a>(series: &'a Series, panel: &Panel) -> impl Iterator<Item = [f64; 2]> + use<'a> {
@@ -86,7 +98,10 @@ fn last(series: &Series, panel: &Panel) -> Option<[f64; 2]> {
     shown(series, panel).last()
 }
 
-fn draw_series(canvas: &mut Canvas, panel: &Panel, series: &Series, style: Style) {
+/// A curve or a cloud. A curve of many points has a few markers, moved by `shift` (0 to 1) of their
+/// distance, so that those of coinciding curves are seen beside each other.
+fn draw_series(canvas: &mut Canvas, panel: &Panel, series: &Series, style: Style, shift: f32) {
+    const FEW: usize = 6;
     let points: Vec<_> = shown(series, panel).map(|[x, y]| panel.at(x, y)).collect();
     if series.joined {
         canvas.line(&points, style.ink, 1.8, None);
@@ -96,6 +111,10 @@ fn draw_series(canvas: &mut Canvas, panel: &Panel, series: &Series, style: Style
         points.iter().for_each(|point| canvas.disc(*point, 2.2, ink));
     } else if points.len() <= MARKED {
         points.iter().for_each(|point| mark(canvas, *point, style));
+    } else {
+        let place = |k: usize| (k as f32 + shift) / FEW as f32 * points.len() as f32;
+        let marked = (0..FEW).filter_map(|k| points.get(place(k) as usize));
+        marked.for_each(|point| mark(canvas, *point, style));
     }
 }
 
