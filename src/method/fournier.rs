@@ -137,7 +137,8 @@ const PARAMETERS: &[Parameter] = &[
     },
     Parameter {
         name: "shadowing",
-        meaning: "none: every peak is seen and lit; printed: by the part of it that sees both light and                   eye over the horizon of its normals (§5); ratioed: what is seen then fills the pixel",
+        meaning: "none: every peak is seen and lit; printed: by the part of it that sees both light and \
+                  eye over the horizon of its normals (§5); ratioed: what is seen then fills the pixel",
         domain: Domain::Choice { words: &["none", "printed", "ratioed"] },
     },
 ];
