@@ -4,6 +4,7 @@ mod args;
 mod compare;
 mod exit;
 mod experiments;
+mod fit;
 mod list;
 mod progress;
 mod render;
@@ -34,6 +35,7 @@ fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
         Some(Command::List(args)) => list::list(&args, out),
         Some(Command::Render(args)) => render::render(&args, out),
         Some(Command::Compare(args)) => compare::compare(&args, out),
+        Some(Command::Fit(args)) => fit::fit(&args, out),
         None => {
             // Nothing was asked: help, as a first answer.
             write!(out, "{}", Args::command().render_help().ansi())?;

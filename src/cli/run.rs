@@ -157,7 +157,7 @@ fn counted(count: usize, what: &str) -> String {
 }
 
 /// A halt that Ctrl-C (or SIGTERM) sets; the second one ends the program at once.
-fn halt_on_interrupt() -> Halt {
+pub(super) fn halt_on_interrupt() -> Halt {
     let halt = Halt(Arc::new(AtomicBool::new(false)));
     let flag = Arc::clone(&halt.0);
     // Without a handler (there is one already) the program ends at once, and still loses nothing.

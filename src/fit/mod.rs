@@ -1,7 +1,7 @@
 //! Floor 2: fitting Phong peaks to a distribution of normals (Fournier 1992 §2).
 //!
 //! [`Directions`] are where a distribution is known; [`Distribution`] is what a region's normals make
-//! of it; [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
+//! of it, or what was measured ([`Samples`]); [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
 //! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
 
 mod directions;
@@ -16,9 +16,12 @@ mod peak;
 mod problem;
 #[cfg(test)]
 mod reference_data;
+mod samples;
 mod solver;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod trust;
 
 pub use directions::Directions;
 pub use distribution::Distribution;
@@ -27,4 +30,5 @@ pub use guess::first_guess;
 pub use least_squares::{LeastSquares, NormalEquations};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;
+pub use samples::{Samples, SamplesError};
 pub use solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};

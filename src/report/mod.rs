@@ -21,6 +21,7 @@ mod curves;
 mod disc;
 mod figures;
 mod files;
+mod fit_plot;
 mod font;
 mod grid;
 mod mark;
@@ -41,6 +42,7 @@ mod fixture;
 use std::path::{Path, PathBuf};
 
 pub use files::ReportError;
+pub use fit_plot::fit_plot;
 
 use crate::experiment::results::{Costs, Results};
 
