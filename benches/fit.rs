@@ -15,7 +15,7 @@ use wrinkle::lobe::BaseLobe;
 use wrinkle::method::{Method, Silent, fournier::Fournier};
 use wrinkle::texture::{NormalMap, Wrap};
 
-#[path = "../src/fit/independent.rs"]
+#[path = "../src/fit/tests/independent.rs"]
 mod independent;
 
 fn main() {

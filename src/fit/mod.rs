@@ -8,20 +8,14 @@ mod directions;
 mod distribution;
 mod greedy;
 mod guess;
-#[cfg(test)]
-mod independent;
 mod kernel;
 mod least_squares;
 mod peak;
 mod problem;
-#[cfg(test)]
-mod reference_data;
 mod samples;
 mod solver;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod trust;
 
 pub use directions::Directions;
 pub use distribution::Distribution;

@@ -1,3 +1,12 @@
+//! Fits on the paper's grid; the other files hold them to more.
+
+mod against;
+mod certified;
+mod independent;
+mod random;
+mod recovery;
+mod sound;
+
 use argmin::core::{Jacobian, Operator};
 use nalgebra::DVector;
 
@@ -21,8 +30,14 @@ fn spread(peaks: &[Peak], directions: &Directions) -> Distribution {
     Distribution::spread(peaks, directions, &|| false).unwrap()
 }
 
-fn quiet() -> LevenbergMarquardt<'static> {
-    LevenbergMarquardt::new(Settings::default(), &|| false)
+fn fitted(
+    distribution: &Distribution,
+    directions: &Directions,
+    max_peaks: usize,
+    restarts: usize,
+) -> Fit {
+    let options = GreedyOptions { max_peaks, stop: 0.0, restarts };
+    fit(distribution, directions, options, &|| false).unwrap()
 }
 
 #[test]
