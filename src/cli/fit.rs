@@ -181,7 +181,8 @@ fn verdict(fit: &Fit, samples: &Samples, options: &GreedyOptions) -> String {
     } else if fit.failures > 0 {
         format!("not below {stop} %, but a peak more gave nothing better")
     } else if fit.fitted >= options.max_peaks {
-        format!("not below {stop} %, and there may be no more than {} peaks", options.max_peaks)
+        let peaks = if options.max_peaks == 1 { "peak" } else { "peaks" };
+        format!("not below {stop} %, and there may be no more than {} {peaks}", options.max_peaks)
     } else {
         format!("not below {stop} %, but nothing sticks out that a peak more could take")
     };
