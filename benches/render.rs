@@ -32,7 +32,7 @@ fn view(size: usize, shading: Shading, texels_per_pixel: f64) -> View {
     let plane = Shape::Plane(Plane::new());
     let untiled = View {
         camera,
-        surface: plane,
+        surface: plane.clone(),
         light: Light::Directional { direction: direction(40.0, 90.0), irradiance: 1.0 },
         shading,
         wrap: Wrap::Repeat,

@@ -12,6 +12,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod cli;
+pub mod evidence;
 pub mod experiment;
 pub mod file;
 pub mod fit;

@@ -57,7 +57,7 @@ fn refused(folder: &Path, args: &[&str], code: i32) -> String {
 fn help_is_the_manual() {
     let help = |args: &[&str]| out(&output(repository(), args));
     insta::assert_snapshot!("help", help(&["--help"]));
-    for command in ["run", "list", "render", "compare", "fit"] {
+    for command in ["run", "list", "render", "lobes", "compare", "fit"] {
         let text = help(&[command, "--help"]);
         assert!(text.contains("Examples:"), "{command} has no example");
         insta::assert_snapshot!(format!("help_{command}"), text);
@@ -241,7 +241,7 @@ fn list_knows_everything_by_name() {
     let text = out(&output(repository(), &["list"]));
     let json: Value =
         serde_json::from_slice(&output(repository(), &["list", "--json"]).stdout).unwrap();
-    for kind in ["methods", "patterns", "surfaces"] {
+    for kind in ["methods", "patterns", "surfaces", "multiple_surfaces"] {
         for entry in json[kind].as_array().unwrap() {
             assert!(text.contains(entry["name"].as_str().unwrap()), "{entry}");
             assert!(!entry["summary"].as_str().unwrap().is_empty(), "{entry}");
@@ -277,4 +277,50 @@ fn output_that_cannot_be_written_is_a_failure() {
     let done = wrinkle(repository(), &["list"]).stdout(full).output().unwrap();
     assert_eq!(done.status.code(), Some(1));
     assert!(err(&done).starts_with("error: cannot write to standard output"), "{}", err(&done));
+}
+
+#[test]
+fn a_multiple_surface_is_drawn_and_its_json_is_a_surface_again() {
+    let folder = folder();
+    let json = out(&output(folder.path(), &["lobes", "silk", "--json", "--incidence=-20,75"]));
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(found["peaks"].as_array().unwrap().len(), 13);
+    assert_eq!(found["plots"][1]["azimuth"], 90.0);
+    assert_eq!(found["plots"][1]["reflections"][0]["incidence"], -20.0);
+    assert_eq!(found["plots"][1]["reflections"][0]["exits"].as_array().unwrap().len(), 361);
+    fs::write(folder.path().join("mine.json"), &json).unwrap();
+    let again = out(&output(folder.path(), &["lobes", "mine.json", "--json", "--out", "l.png"]));
+    let again: Value = serde_json::from_str(&again).unwrap();
+    assert_eq!((&again["peaks"], &again["surface"]), (&found["peaks"], &"mine".into()));
+    assert!(image::open(folder.path().join("l.png")).unwrap().width() > 1000);
+    for (name, shape) in [("velvet", "sphere"), ("mine.json", "plane")] {
+        let args = ["render", name, "--shape", shape, "--size", "9x7", "--out", "o.png"];
+        assert_eq!(out(&output(folder.path(), &args)), "o.png\n");
+        let image = image::open(folder.path().join("o.png")).unwrap();
+        assert_eq!((image.width(), image.height()), (9, 7));
+    }
+}
+
+#[test]
+fn a_wrong_multiple_surface_is_refused() {
+    let folder = folder();
+    fs::write(folder.path().join("bad.json"), "{\"peaks\": 7}").unwrap();
+    for (args, says) in [
+        (&["lobes", "velvt", "--json"][..], "did you mean `velvet`?"),
+        (&["lobes", "bad.json", "--json"], "bad.json: invalid type"),
+        (&["lobes", "no.json", "--json"], "cannot read no.json"),
+        (&["lobes", "velvet", "--out", "o.exr"], "name it .png"),
+        (&["lobes", "velvet", "--out", "no/o.png"], "there is no folder no"),
+        (&["lobes", "velvet"], "--out <IMAGE>"),
+        (&["lobes", "velvet", "--json", "--incidence=90"], "below 90"),
+        (&["lobes", "velvet", "--json", "--incidence=1,2,3,4,5,6,7,8"], "at most 7"),
+        (&["lobes", "velvet", "--json", "--azimuth=nan"], "from -360 to 360"),
+        (&["render", "bad.json", "--out", "o.png"], "bad.json: invalid type"),
+        (&["render", "silk", "--method", "lean", "--out", "o.png"], "leave out --method"),
+        (&["render", "tiny.toml", "--shape", "plane", "--out", "o.png"], "--shape is for"),
+    ] {
+        let message = refused(folder.path(), args, 2);
+        assert!(message.contains(says), "{args:?}: {message}");
+    }
+    assert!(!folder.path().join("o.png").exists());
 }

@@ -1,6 +1,7 @@
 //! The experiments that come with the program are right.
 
-use wrinkle::experiment::spec::Spec;
+use wrinkle::evidence;
+use wrinkle::experiment::spec::Experiment;
 
 #[test]
 fn every_experiment_can_be_read() {
@@ -10,7 +11,8 @@ fn every_experiment_can_be_read() {
         files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
     assert!(specs.len() >= 2);
     for path in specs {
-        let spec = Spec::load(&path).unwrap_or_else(|error| panic!("{error}"));
-        assert!(!spec.question.is_empty(), "{} asks nothing", path.display());
+        let read = Experiment::load(&path, &evidence::keys());
+        let experiment = read.unwrap_or_else(|error| panic!("{error}"));
+        assert!(!experiment.question().is_empty(), "{} asks nothing", path.display());
     }
 }

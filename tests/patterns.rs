@@ -68,7 +68,7 @@ fn every_pattern_makes_sound_maps_of_every_size_and_setting() {
                     assert!((length - 1.0).abs() < 1e-6 && *z > 0.0, "{what}");
                     assert!(w.is_finite() && *w >= 0.0, "{what}");
                 }
-                if let Some(heights) = bumps.heights {
+                if let Some(heights) = &bumps.heights {
                     assert_eq!([heights.width(), heights.height()], [width, height]);
                     assert!(heights.values().iter().all(|h| h.is_finite()), "{what}");
                 }
@@ -305,4 +305,48 @@ fn heights_belong_to_the_normals() {
             .fold(1.0, f32::min);
         assert!(worst > 0.98, "{name}: {worst}");
     }
+}
+
+#[test]
+fn heights_seen_from_above_are_those_of_the_geometry() {
+    let top = |name, set: &[_]| make(name, [64, 64], set, 0).heights.unwrap();
+    // A sphere and two cylinders: F² and the squared distance from the axis add up to the radius'.
+    let sphere = top("hemispheres", &[]);
+    let cylinders = top("cylinders", &[("count", Value::Number(2.0))]);
+    for j in 0..64 {
+        for i in 0..64 {
+            let (x, y) = (i as f64 + 0.5 - 32.0, j as f64 + 0.5 - 32.0);
+            let square = 32.0f64.powi(2) - x * x - y * y;
+            assert!((sphere.at(i, j) - square.max(0.0).sqrt()).abs() < 1e-9, "{i}, {j}");
+            let across = (i as f64 + 0.5).rem_euclid(32.0) - 16.0;
+            let want = (16.0f64.powi(2) - across * across).sqrt();
+            assert!((cylinders.at(i, j) - want).abs() < 1e-9, "{i}, {j}");
+        }
+    }
+    let threads = top("twill", &[]);
+    let crest = (16.0 - 0.25f64).sqrt();
+    assert!(
+        (threads.range()[1] - crest).abs() < 1e-9,
+        "half a pitch of 8, half a texel off the axis"
+    );
+}
+
+#[test]
+fn normals_seen_from_above_are_those_of_the_heights() {
+    // Inside a thread, away from its rims, central differences come near the normal's own slope.
+    let bent = [("pitch", Value::Number(64.0)), ("bend", Value::Number(20.0))];
+    let bumps = make("twill", [192, 192], &bent, 0);
+    let heights = bumps.heights.unwrap();
+    let mut seen = 0;
+    for (j, i) in (0..192).flat_map(|j| (0..192).map(move |i| (j, i))) {
+        let inside = |k: usize| (16..48).contains(&(k % 64));
+        let [x, y, z, _] = bumps.normals.texel(i, j).map(f64::from);
+        if inside(i) && inside(j) {
+            let [fx, fy] = heights.gradient(i as isize, j as isize);
+            // The thread is taken for straight: the bend of its line is left out of the slope along it.
+            assert!((fx + x / z).abs() < 0.08 && (fy + y / z).abs() < 0.25, "{i}, {j}: {fx} {fy}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 9 * 32 * 32);
 }

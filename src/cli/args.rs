@@ -32,6 +32,8 @@ pub enum Command {
     List(ListArgs),
     /// Render one image.
     Render(RenderArgs),
+    /// Draw what a multiple surface reflects.
+    Lobes(LobesArgs),
     /// Score one image against another.
     Compare(CompareArgs),
     /// Fit Phong peaks to a measured distribution.
@@ -77,17 +79,19 @@ pub struct ListArgs {
 #[command(after_help = "Examples:
   wrinkle render my_normals.png --method schilling-anisotropic --out look.png
   wrinkle render quick --texture small-twill --method fournier --spp 4 --out twill.exr
+  wrinkle render velvet --shape sphere --out velvet.png
   wrinkle render height.png --kind height --height-scale 8 --texels-per-pixel 2 --out h.png")]
 pub struct RenderArgs {
-    /// An experiment (name or TOML file), or an image file that holds a normal or height map.
+    /// An experiment (name or TOML file), an image file that holds a normal or height map, or a multiple
+    /// surface (name or JSON file of peaks).
     #[arg(value_name = "FILE")]
     pub file: String,
     /// The filter; `wrinkle list` shows them.
     #[arg(long, value_name = "M", default_value = "unfiltered")]
     pub method: String,
-    /// Samples a pixel.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65536))]
-    pub spp: u32,
+    /// Samples a pixel; 1 if not given, 16 for a multiple surface.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub spp: Option<u32>,
     /// The image to write: PNG (exposed, 8-bit sRGB) or EXR (linear, 32-bit float).
     #[arg(long, value_name = "IMAGE")]
     pub out: PathBuf,
@@ -97,6 +101,9 @@ pub struct RenderArgs {
     /// Texels across a pixel at the image's centre; the experiment's first scale, or 4, if not given.
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub texels_per_pixel: Option<f64>,
+    /// What a multiple surface covers; a sphere if not given.
+    #[arg(long, value_parser = ["sphere", "plane"])]
+    pub shape: Option<String>,
     /// Width and height of the image; the experiment's, or 640x480, if not given.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(usize, usize)>,
@@ -112,6 +119,36 @@ pub struct RenderArgs {
     /// Exposure of a PNG: radiance is multiplied by it. Chosen from the image if not given.
     #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: Option<f64>,
+}
+
+/// Arguments of `lobes`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle lobes velvet --out velvet-lobes.png
+  wrinkle lobes anisotropic --azimuth 0,45,90 --out lobes.png
+  wrinkle lobes peaks.json --shading microfacet --json
+
+Radiance is that of light of unit irradiance on a plane facing it, in the plane of incidence. A file of peaks is
+JSON as `wrinkle lobes --json` and `wrinkle fit --json` print it.")]
+pub struct LobesArgs {
+    /// A multiple surface: its name (`wrinkle list`), or a JSON file of peaks.
+    #[arg(value_name = "SURFACE")]
+    pub surface: String,
+    /// The picture to write, PNG.
+    #[arg(long, value_name = "IMAGE", required_unless_present = "json")]
+    pub out: Option<PathBuf>,
+    /// Angles of incidence, degrees from the normal.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "0,30,60", allow_negative_numbers = true, value_parser = parse_incidence)]
+    pub incidence: Vec<f64>,
+    /// Planes of incidence, degrees from +x towards +y.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "0,90", allow_negative_numbers = true, value_parser = parse_azimuth)]
+    pub azimuth: Vec<f64>,
+    /// How lobes become light.
+    #[arg(long, default_value = "ndf", value_parser = ["ndf", "microfacet"])]
+    pub shading: String,
+    /// Print peaks and radiances as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `compare`.
@@ -172,6 +209,20 @@ fn parse_size(text: &str) -> Result<(usize, usize), String> {
         _ => Err(format!("`{side}` is not a whole number from 1 to 4096")),
     };
     Ok((side(width)?, side(height)?))
+}
+
+fn parse_incidence(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(angle) if angle > -90.0 && angle < 90.0 => Ok(angle),
+        _ => Err("give degrees above -90 and below 90".into()),
+    }
+}
+
+fn parse_azimuth(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(angle) if (-360.0..=360.0).contains(&angle) => Ok(angle),
+        _ => Err("give degrees from -360 to 360".into()),
+    }
 }
 
 fn parse_height(text: &str) -> Result<f64, String> {

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::exit::Failure;
-use crate::experiment::spec::{Spec, no_such};
+use crate::evidence;
+use crate::experiment::spec::{Experiment, Spec, no_such};
 
 /// Where experiments are looked for by name, from the working folder.
 pub(super) const FOLDER: &str = "experiments";
@@ -45,6 +46,31 @@ pub(super) fn names() -> Vec<String> {
 }
 
 /// Loads an experiment by name or path.
-pub(super) fn load(name: &str) -> Result<Spec, Failure> {
-    Spec::load(&locate(name)?).map_err(Failure::wrong)
+pub(super) fn load(name: &str) -> Result<Experiment, Failure> {
+    Experiment::load(&locate(name)?, &evidence::keys()).map_err(Failure::wrong)
+}
+
+/// Loads a sweep by name or path: of a paper's experiment, a part, as `NAME/PART`.
+pub(super) fn load_sweep(name: &str) -> Result<Spec, Failure> {
+    let (whole, part) = match name.rsplit_once('/') {
+        Some((whole, part)) if locate(name).is_err() => (whole, Some(part)),
+        _ => (name, None),
+    };
+    match load(whole)? {
+        Experiment::Sweep(spec) if part.is_none() => Ok(*spec),
+        Experiment::Sweep(_) => Err(Failure::wrong(format!("experiment `{whole}` has no parts"))),
+        Experiment::Paper(paper) => {
+            let known: Vec<&str> = paper.parts.iter().map(|part| part.name.as_str()).collect();
+            let Some(part) = part else {
+                let parts = known.join(", ");
+                let message = format!(
+                    "experiment `{whole}` gathers evidence: name one of its parts, as {whole}/PART \
+                     (known: {parts})"
+                );
+                return Err(Failure::wrong(message));
+            };
+            let found = paper.parts.iter().find(|spec| spec.name == part).cloned();
+            found.ok_or_else(|| Failure::wrong(no_such("part", part, &known)))
+        }
+    }
 }

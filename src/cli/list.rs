@@ -8,17 +8,17 @@ use super::Exit;
 use super::args::ListArgs;
 use super::exit::Failure;
 use super::experiments;
-use crate::experiment::spec::Spec;
 use crate::parameter::{Domain, Parameter};
-use crate::{method, pattern};
+use crate::{lobe, method, pattern};
 
 /// Surfaces, with what they are.
-const SURFACES: [(&str, &str); 2] = [
+const SURFACES: [(&str, &str); 3] = [
     ("plane", "the plane z = 0, tiled without end"),
     ("sphere", "the unit sphere, u along longitude and v along latitude"),
+    ("drapery", "a coarse cloth that hangs in folds, u across them and v up"),
 ];
 
-/// Prints experiments, methods, patterns and surfaces.
+/// Prints experiments, methods, patterns, surfaces and multiple surfaces.
 pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
     if args.json {
         writeln!(out, "{:#}", as_json())?;
@@ -38,13 +38,12 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Exit, Failure
     Ok(Exit::Done)
 }
 
-fn sections() -> [(&'static str, Vec<(String, String)>); 4] {
+fn sections() -> [(&'static str, Vec<(String, String)>); 5] {
     let experiments = experiments::names()
         .into_iter()
         .map(|name| {
-            let path = std::path::Path::new(experiments::FOLDER).join(format!("{name}.toml"));
-            let what =
-                Spec::load(&path).map_or("has errors: run it to see them".into(), |s| s.title);
+            let loaded = experiments::load(&name);
+            let what = loaded.map_or("has errors: run it to see them".into(), |e| e.title().into());
             (name, what)
         })
         .collect();
@@ -53,11 +52,13 @@ fn sections() -> [(&'static str, Vec<(String, String)>); 4] {
     let patterns =
         pattern::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
     let surfaces = SURFACES.into_iter().map(|(name, what)| (name.into(), what.into()));
+    let multiple = lobe::named().iter().map(|s| (s.name.into(), s.meaning.into()));
     [
         ("Experiments (wrinkle run NAME)", experiments),
         ("Methods", methods.collect()),
         ("Patterns", patterns.collect()),
         ("Surfaces", surfaces.collect()),
+        ("Multiple surfaces (wrinkle lobes NAME, wrinkle render NAME)", multiple.collect()),
     ]
 }
 
@@ -83,11 +84,16 @@ fn as_json() -> Json {
         .collect();
     let surfaces: Vec<Json> =
         SURFACES.iter().map(|(name, what)| json!({ "name": name, "summary": what })).collect();
+    let multiple: Vec<Json> = lobe::named()
+        .iter()
+        .map(|s| json!({ "name": s.name, "source": s.source, "summary": s.meaning }))
+        .collect();
     json!({
         "experiments": experiments::names(),
         "methods": methods,
         "patterns": patterns,
         "surfaces": surfaces,
+        "multiple_surfaces": multiple,
     })
 }
 

@@ -6,9 +6,13 @@ mod exit;
 mod experiments;
 mod fit;
 mod list;
+mod lobes;
+mod output;
 mod progress;
 mod render;
 mod run;
+mod summary;
+mod surface;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -34,6 +38,7 @@ fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
         Some(Command::Run(args)) => run::run(&args, out),
         Some(Command::List(args)) => list::list(&args, out),
         Some(Command::Render(args)) => render::render(&args, out),
+        Some(Command::Lobes(args)) => lobes::lobes(&args, out),
         Some(Command::Compare(args)) => compare::compare(&args, out),
         Some(Command::Fit(args)) => fit::fit(&args, out),
         None => {

@@ -52,7 +52,7 @@ impl Bar {
             RunEvent::Scene { .. } => state.scene += 1,
             RunEvent::Working { what, work } => {
                 state.piece = *work;
-                let message = format!("scene {} of {}: {what}", state.scene, state.scenes);
+                let message = format!("{} of {}: {what}", state.scene, state.scenes);
                 self.bar.set_message(message);
             }
             RunEvent::Partly { part } => self.show(&state, part * state.piece),
@@ -64,6 +64,7 @@ impl Bar {
                 }
                 self.show(&state, 0.0);
             }
+            RunEvent::Noted { text } => self.bar.suspend(|| anstream::eprintln!("note: {text}")),
             RunEvent::Scored { .. } => {}
         }
     }

@@ -1,4 +1,4 @@
-//! `wrinkle render`: one image, of an experiment or of a map of the user's own.
+//! `wrinkle render`: one image, of an experiment, of a map of the user's own, or of a multiple surface.
 
 use std::io::Write;
 use std::path::Path;
@@ -7,26 +7,53 @@ use super::Exit;
 use super::args::RenderArgs;
 use super::exit::Failure;
 use super::experiments;
+use super::output;
 use super::progress::Spinner;
+use super::surface::{self, Wanted};
 use crate::experiment::preview::{self, Wish};
 use crate::experiment::spec::{Spec, no_such};
 use crate::method;
+use crate::render::{Film, Portrait};
 
 /// Renders the image asked for and writes it.
 pub(super) fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
-    let format = args.out.extension().map(|e| e.to_string_lossy().to_lowercase());
-    let png = match format.as_deref() {
-        Some("png") => true,
-        Some("exr") => false,
-        _ => {
-            let message = format!("cannot write {}: name it .png or .exr", args.out.display());
-            return Err(Failure::wrong(message));
-        }
+    let png = output::ending(&args.out, &["png", "exr"])? == "png";
+    let film = match surface::wanted(&args.file)? {
+        Some(wanted) => portrait(args, &wanted)?,
+        None => of_map(args)?,
     };
-    let folder = args.out.parent().filter(|folder| *folder != Path::new(""));
-    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+    let exposure = args.exposure.unwrap_or_else(|| 1.0 / film.white());
+    let written = if png { film.write_png(exposure, &args.out) } else { film.write_exr(&args.out) };
+    written.map_err(Failure::failed)?;
+    writeln!(out, "{}", args.out.display())?;
+    Ok(Exit::Done)
+}
+
+/// A multiple surface without a map, on a sphere or a plane.
+fn portrait(args: &RenderArgs, wanted: &Wanted) -> Result<Film, Failure> {
+    let unused = [
+        (args.method != "unfiltered", "--method"),
+        (args.texture.is_some(), "--texture"),
+        (args.texels_per_pixel.is_some(), "--texels-per-pixel"),
+    ];
+    if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
         let message =
-            format!("cannot write {}: there is no folder {}", args.out.display(), folder.display());
+            format!("{} is a multiple surface without a map: leave out {option}", args.file);
+        return Err(Failure::wrong(message));
+    }
+    let (width, height) = args.size.unwrap_or((640, 480));
+    let usual = match args.shape.as_deref() {
+        Some("plane") => Portrait::plane(width, height),
+        _ => Portrait::sphere(width, height),
+    };
+    Ok(Portrait { spp: args.spp.unwrap_or(usual.spp), ..usual }.of(wanted.surface()))
+}
+
+/// A map, or a texture of an experiment, through a filter.
+fn of_map(args: &RenderArgs) -> Result<Film, Failure> {
+    if args.shape.is_some() {
+        let message =
+            "--shape is for a multiple surface; an experiment says its own under [surface]";
         return Err(Failure::wrong(message));
     }
     let method = method::build(&args.method).ok_or_else(|| {
@@ -37,17 +64,10 @@ pub(super) fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<Exit, Fai
     let wish = Wish {
         texture: args.texture.as_deref(),
         texels_per_pixel: args.texels_per_pixel,
-        spp: args.spp,
+        spp: args.spp.unwrap_or(1),
     };
     let spinner = Spinner::new(&args.method);
-    let film = preview::render_one(&spec, method.as_ref(), &wish, &spinner);
-    drop(spinner);
-    let film = film.map_err(Failure::wrong)?;
-    let exposure = args.exposure.unwrap_or_else(|| 1.0 / film.white());
-    let written = if png { film.write_png(exposure, &args.out) } else { film.write_exr(&args.out) };
-    written.map_err(Failure::failed)?;
-    writeln!(out, "{}", args.out.display())?;
-    Ok(Exit::Done)
+    preview::render_one(&spec, method.as_ref(), &wish, &spinner).map_err(Failure::wrong)
 }
 
 /// The experiment, or one made about the image file.
@@ -64,7 +84,7 @@ fn spec(args: &RenderArgs) -> Result<Spec, Failure> {
         }
         Spec::parse(&about_image(args), Path::new("render.toml")).map_err(Failure::wrong)?
     } else {
-        experiments::load(&args.file)?
+        experiments::load_sweep(&args.file)?
     };
     if let Some((width, height)) = args.size {
         (spec.image.width, spec.image.height) = (width, height);

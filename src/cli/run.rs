@@ -1,7 +1,7 @@
 //! `wrinkle run`: experiments to reports.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -10,25 +10,26 @@ use super::args::RunArgs;
 use super::exit::{Failure, tell};
 use super::experiments;
 use super::progress::Bar;
+use super::summary::Summary;
+use crate::evidence::{Findings, Gathered, gather};
 use crate::experiment::lock::{Lock, LockError};
-use crate::experiment::results::Results;
 use crate::experiment::runner::{self, Outcome, RunError, Watcher};
-use crate::experiment::spec::Spec;
+use crate::experiment::spec::{Experiment, PaperSpec, Spec};
 use crate::report;
 use crate::scene::Halt;
 
 /// Runs the experiments asked for, one after the other.
 pub(super) fn run(args: &RunArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
-    let specs = specs(&args.experiments)?;
+    let experiments = read(&args.experiments)?;
     if let Some(threads) = args.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
         pool.build_global().map_err(Failure::failed)?;
     }
     let halt = halt_on_interrupt();
     let mut summaries = Vec::new();
-    for spec in &specs {
-        let folder = args.out.join(&spec.name);
-        let Some(summary) = run_one(spec, &folder, &halt)? else {
+    for experiment in &experiments {
+        let folder = args.out.join(experiment.name());
+        let Some(summary) = run_one(experiment, &folder, &halt)? else {
             tell(format_args!(
                 "interrupted: what was finished is kept in {}; the same command goes on",
                 folder.display()
@@ -47,22 +48,22 @@ pub(super) fn run(args: &RunArgs, out: &mut dyn Write) -> Result<Exit, Failure> 
     Ok(Exit::Done)
 }
 
-/// The specs of these names; every one is read before any work is done.
-fn specs(names: &[String]) -> Result<Vec<Spec>, Failure> {
-    let (mut specs, mut wrong): (Vec<Spec>, Vec<Failure>) = (Vec::new(), Vec::new());
+/// The experiments of these names; every one is read before any work is done.
+fn read(names: &[String]) -> Result<Vec<Experiment>, Failure> {
+    let (mut read, mut wrong): (Vec<Experiment>, Vec<Failure>) = (Vec::new(), Vec::new());
     for name in names {
         match experiments::load(name) {
-            Ok(spec) if specs.iter().any(|other| other.name == spec.name) => {
+            Ok(new) if read.iter().any(|other| other.name() == new.name()) => {
                 let message =
-                    format!("two experiments are named `{}`: run one at a time", spec.name);
+                    format!("two experiments are named `{}`: run one at a time", new.name());
                 wrong.push(Failure::wrong(message));
             }
-            Ok(spec) => specs.push(spec),
+            Ok(new) => read.push(new),
             Err(failure) => wrong.push(failure),
         }
     }
     match wrong.pop() {
-        None => Ok(specs),
+        None => Ok(read),
         Some(last) => {
             for failure in &wrong {
                 failure.tell();
@@ -73,87 +74,70 @@ fn specs(names: &[String]) -> Result<Vec<Spec>, Failure> {
 }
 
 /// Runs one experiment and writes its report; None if it was halted.
-fn run_one(spec: &Spec, folder: &Path, halt: &Halt) -> Result<Option<Summary>, Failure> {
+fn run_one(
+    experiment: &Experiment,
+    folder: &Path,
+    halt: &Halt,
+) -> Result<Option<Summary>, Failure> {
     let _lock = Lock::take(folder).map_err(|error| match error {
         LockError::Taken { .. } => Failure::failed(error),
         LockError::Store(_) => Failure::failed(format!("{error}; choose a folder with --out")),
     })?;
-    let bar = Arc::new(Bar::new(&spec.name));
+    let bar = Arc::new(Bar::new(experiment.name()));
     let watching = Arc::clone(&bar);
     let watcher: Watcher = Arc::new(move |event| watching.take(&event));
-    let outcome = runner::run(spec, folder, halt, &watcher);
+    let done = match experiment {
+        Experiment::Sweep(spec) => sweep(spec, folder, halt, &watcher),
+        Experiment::Paper(spec) => paper(spec, folder, halt, &watcher),
+    };
     bar.clear();
-    match outcome {
-        Ok(Outcome::Finished(found)) => {
+    done
+}
+
+/// Runs a sweep.
+fn sweep(
+    spec: &Spec,
+    folder: &Path,
+    halt: &Halt,
+    watcher: &Watcher,
+) -> Result<Option<Summary>, Failure> {
+    match runner::run(spec, folder, halt, watcher).map_err(failed)? {
+        Outcome::Finished(found) => {
             let (results, costs) = *found;
             let files = report::write(&results, &costs, folder).map_err(Failure::failed)?;
-            Ok(Some(Summary::new(&results, costs.total_secs, folder, files)))
+            Ok(Some(Summary::of_sweep(&results, costs.total_secs, folder, files)))
         }
-        Ok(Outcome::Halted) => Ok(None),
-        Err(error @ RunError::Texture { .. }) => Err(Failure::wrong(error)),
-        Err(error @ RunError::Store(_)) => Err(Failure::failed(format!(
+        Outcome::Halted => Ok(None),
+    }
+}
+
+/// Gathers a paper's evidence; its sweeps have reports of their own in folders within.
+fn paper(
+    spec: &PaperSpec,
+    folder: &Path,
+    halt: &Halt,
+    watcher: &Watcher,
+) -> Result<Option<Summary>, Failure> {
+    let Gathered::Finished(found) = gather(spec, folder, halt, watcher).map_err(failed)? else {
+        return Ok(None);
+    };
+    let Findings { evidence, parts, row_secs, secs } = *found;
+    let mut files =
+        report::write_evidence(&evidence, &row_secs, folder).map_err(Failure::failed)?;
+    for part in &parts {
+        let within = folder.join(&part.results.name);
+        files.extend(report::write(&part.results, &part.costs, &within).map_err(Failure::failed)?);
+    }
+    Ok(Some(Summary::of_evidence(&evidence, secs, folder, files)))
+}
+
+fn failed(error: RunError) -> Failure {
+    match error {
+        RunError::Texture { .. } => Failure::wrong(error),
+        RunError::Store(_) => Failure::failed(format!(
             "{error}; what was finished is kept: once there is room, the same command goes on"
-        ))),
+        )),
     }
-}
-
-/// What a finished run tells on standard output.
-struct Summary {
-    name: String,
-    answer: Vec<String>,
-    folder: PathBuf,
-    files: Vec<PathBuf>,
-    scenes: usize,
-    trials: usize,
-    secs: f64,
-}
-
-impl Summary {
-    fn new(results: &Results, secs: f64, folder: &Path, files: Vec<PathBuf>) -> Self {
-        Self {
-            name: results.name.clone(),
-            answer: report::lead(results),
-            folder: folder.to_owned(),
-            files,
-            scenes: results.scenes.len(),
-            trials: results.scenes.iter().map(|scene| scene.trials.len()).sum(),
-            secs,
-        }
-    }
-
-    fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
-        let bold = anstyle::Style::new().bold();
-        writeln!(
-            out,
-            "{bold}{}{bold:#}: {} of {} in {:.1} s",
-            self.name,
-            counted(self.trials, "trial"),
-            counted(self.scenes, "scene"),
-            self.secs
-        )?;
-        for sentence in &self.answer {
-            writeln!(out, "  {sentence}")?;
-        }
-        let report = self.files.iter().find(|file| file.ends_with("report.html"));
-        writeln!(out, "Report: {}", report.unwrap_or(&self.folder).display())
-    }
-
-    fn json(&self) -> serde_json::Value {
-        serde_json::json!({
-            "name": self.name,
-            "answer": self.answer,
-            "folder": self.folder,
-            "files": self.files,
-            "scenes": self.scenes,
-            "trials": self.trials,
-            "seconds": self.secs,
-        })
-    }
-}
-
-/// "1 scene", "2 scenes".
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A halt that Ctrl-C (or SIGTERM) sets; the second one ends the program at once.

@@ -1,22 +1,24 @@
 //! From a spec to entities: the author of the world.
 
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    LightSpec, Reading as ReadingSpec, Scale, Shape as ShapeSpec, Spec, TextureSource, TextureSpec,
+    LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec, Spec,
+    TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::lobe::BaseLobe;
-use crate::method;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
     BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
     ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
 };
-use crate::surface::{Plane, Shape, Sphere};
-use crate::texture::Wrap;
+use crate::surface::{Plane, Shape, Sphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
+use crate::texture::{Integrated, Wrap, integrate};
 
 /// The entities of an experiment, in the order of its spec.
 #[derive(Clone, Debug, Default)]
@@ -73,15 +75,12 @@ pub struct PlannedTrial {
 pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     let world = &mut stage.world;
     let textures: Vec<Entity> =
-        spec.sweep.textures.iter().map(|t| spawn_texture(world, t)).collect();
+        spec.sweep.textures.iter().map(|t| spawn_texture(world, t, spec.needs_heights())).collect();
     let strategies: Vec<Entity> = spec
         .sweep
         .methods
         .iter()
-        .map(|m| {
-            let entry = method::find(m.name).expect("the spec names registered methods");
-            world.spawn((Name::new(m.label.clone()), Strategy((entry.build)(&m.values)))).id()
-        })
+        .map(|m| world.spawn((Name::new(m.label.clone()), Strategy(m.build()))).id())
         .collect();
     let materials: Vec<(BaseLobe, Entity)> = spec
         .sweep
@@ -160,8 +159,8 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> E
     let centre = [spec.image.width / 2, spec.image.height / 2];
     // Beside the centre, a pixel halfway to the image's corner, where the highlight fades.
     let aside = [spec.image.width / 4, spec.image.height / 4];
-    let reference =
-        ReferencePlan { spp: spec.reference.spp, replicates: spec.reference.replicates };
+    let ReferenceSpec { spp, replicates, truth } = spec.reference;
+    let reference = ReferencePlan { spp, replicates, truth };
     world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
 }
 
@@ -181,18 +180,19 @@ fn spawn_trials(
     trials
 }
 
-fn spawn_texture(world: &mut World, spec: &TextureSpec) -> Entity {
+fn spawn_texture(world: &mut World, spec: &TextureSpec, heights: bool) -> Entity {
     let name = Name::new(spec.name.clone());
     let spec = spec.clone();
-    let source = BumpSource(Box::new(move || load(&spec)));
+    let source = BumpSource(Box::new(move || load(&spec, heights)));
     world.spawn((Texture, name, source)).id()
 }
 
-/// Makes or reads a texture's bumps.
+/// Makes or reads a texture's bumps. Its normals know the heights they are of, where there are any; if
+/// `heights` are needed and there are none, they are integrated, and a note tells how well.
 ///
 /// # Errors
 /// What is wrong with its file.
-pub fn load(spec: &TextureSpec) -> Result<Bumps, LoadError> {
+pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
     let mut bumps = match &spec.source {
         TextureSource::Pattern { name, width, height, values, seed } => {
             let entry = pattern::find(name).expect("the spec names registered patterns");
@@ -204,6 +204,14 @@ pub fn load(spec: &TextureSpec) -> Result<Bumps, LoadError> {
         }
     };
     bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    if heights && bumps.heights.is_none() {
+        let Integrated { heights, residual } = integrate(&bumps.normals);
+        bumps.notes.push(residual.to_string());
+        bumps.heights = Some(heights);
+    }
+    if let Some(heights) = bumps.heights.take() {
+        bumps.normals = bumps.normals.with_heights(Arc::new(heights));
+    }
     Ok(bumps)
 }
 
@@ -222,6 +230,7 @@ fn shape(spec: ShapeSpec) -> Shape {
     match spec {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
+        ShapeSpec::Drapery => Shape::Drapery(drapery()),
     }
 }
 

@@ -11,7 +11,6 @@ use super::results::{
 use super::spec::{Shape, Spec, TextureSource, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, Store};
 use crate::lobe::{Shading, Spread};
-use crate::method;
 use crate::metric;
 use crate::scene::{Exposure, Probes, ReferenceImage, Scores, Stagehand, Tiling};
 use crate::texture::image_file::{Preview, preview};
@@ -25,7 +24,8 @@ pub(super) fn collect(
     mut costs: Costs,
 ) -> (Results, Costs) {
     let pixels = (spec.image.width * spec.image.height) as f64;
-    let textures: Vec<TextureInfo> = spec.sweep.textures.iter().map(describe_texture).collect();
+    let textures: Vec<TextureInfo> =
+        spec.sweep.textures.iter().map(|t| describe_texture(t, spec.needs_heights())).collect();
     let mut scenes = Vec::with_capacity(plan.scenes.len());
     let mut seen = std::collections::BTreeSet::new();
     for scene in &plan.scenes {
@@ -81,6 +81,7 @@ pub(super) fn collect(
                 film: Arc::new(image.0.film.clone()),
                 spp: image.0.spp,
                 rmse: image.0.rmse,
+                truth: spec.reference.truth,
             },
             trials,
             refusals,
@@ -174,8 +175,7 @@ pub(super) fn known_scores(scores: &[Score]) -> Scores {
 }
 
 fn describe_method(spec: &super::spec::MethodSpec) -> MethodInfo {
-    let entry = method::find(spec.name).expect("the spec names registered methods");
-    let card = (entry.build)(&spec.values).card();
+    let card = spec.build().card();
     MethodInfo {
         label: spec.label.clone(),
         name: card.name.to_owned(),
@@ -188,7 +188,7 @@ fn describe_method(spec: &super::spec::MethodSpec) -> MethodInfo {
     }
 }
 
-fn describe_texture(spec: &TextureSpec) -> TextureInfo {
+fn describe_texture(spec: &TextureSpec, heights: bool) -> TextureInfo {
     let description = match &spec.source {
         TextureSource::Pattern { name, values, seed, .. } => {
             let options: Vec<String> =
@@ -200,7 +200,7 @@ fn describe_texture(spec: &TextureSpec) -> TextureInfo {
     let description =
         format!("{description}, {:?} wrap, {:?} interpolation", spec.wrap, spec.interpolation);
     // The runner loaded every texture before it began.
-    let bumps = load(spec).ok();
+    let bumps = load(spec, heights).ok();
     TextureInfo {
         name: spec.name.clone(),
         description,

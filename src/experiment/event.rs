@@ -38,6 +38,11 @@ pub enum RunEvent {
         /// Whether an earlier run had done it.
         kept: bool,
     },
+    /// Something worth knowing that stops nothing, in a sentence.
+    Noted {
+        /// The sentence.
+        text: String,
+    },
     /// A trial has its scores.
     Scored {
         /// The scene's slug.

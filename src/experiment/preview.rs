@@ -4,7 +4,7 @@ use super::author::author;
 use super::spec::{Scale, Spec, no_such};
 use crate::method::{Method, Progress};
 use crate::render::{Film, PixelSampler, render};
-use crate::scene::{Current, Failure, Halt, Stagehand, stage};
+use crate::scene::{Current, Failure, Halt, StagedScene, Stagehand, stage};
 
 /// Which image of an experiment.
 #[derive(Clone, Copy, Debug)]
@@ -22,17 +22,11 @@ pub struct Wish<'a> {
 #[error("{0}")]
 pub struct NoImage(String);
 
-/// Renders one image of an experiment through a method: its first lobe, and what `wish` chooses.
-/// `progress` hears of the prefilter.
+/// The scene of one image of an experiment, ready to render: its first lobe, and what `wish` chooses.
 ///
 /// # Errors
-/// If there is no such texture, it cannot be loaded, or the method refuses the base lobe.
-pub fn render_one(
-    spec: &Spec,
-    method: &dyn Method,
-    wish: &Wish<'_>,
-    progress: &dyn Progress,
-) -> Result<Film, NoImage> {
+/// If there is no such texture, or it cannot be loaded.
+pub fn stage_one(spec: &Spec, wish: &Wish<'_>) -> Result<StagedScene, NoImage> {
     let mut one = spec.clone();
     one.sweep.methods.clear();
     if let Some(name) = wish.texture {
@@ -54,13 +48,27 @@ pub fn render_one(
     let plan = author(&one, &mut hand);
     let scene = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
     hand.world.insert_resource(Current(scene.entity));
-    // With no method in the sweep, a tick loads the texture; the rest is done here.
+    // With no method in the sweep, a tick loads the texture; the rest is for others to do.
     hand.tick();
     if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
         return Err(NoImage(error.to_string()));
     }
-    let staged = stage(&mut hand.world, scene.entity)
-        .ok_or_else(|| NoImage("the scene could not be put together".into()))?;
+    stage(&mut hand.world, scene.entity)
+        .ok_or_else(|| NoImage("the scene could not be put together".into()))
+}
+
+/// Renders one image of an experiment through a method: the scene of [`stage_one`]. `progress` hears of
+/// the prefilter.
+///
+/// # Errors
+/// Those of [`stage_one`], or if the method refuses the base lobe.
+pub fn render_one(
+    spec: &Spec,
+    method: &dyn Method,
+    wish: &Wish<'_>,
+    progress: &dyn Progress,
+) -> Result<Film, NoImage> {
+    let staged = stage_one(spec, wish)?;
     let prefiltered = method
         .prefilter(&staged.map, &staged.material.base, progress)
         .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::method::Truth;
 use crate::render::Film;
 
 /// All that one run of an experiment found, apart from what it cost.
@@ -127,6 +128,8 @@ pub struct Reference {
     /// Estimated root mean square error of the image itself: the standard error of the mean of its
     /// independent replicates, root mean square over pixels.
     pub rmse: f64,
+    /// What it shows of the bumps.
+    pub truth: Truth,
 }
 
 /// One method at one sample count.

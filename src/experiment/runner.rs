@@ -1,6 +1,8 @@
 //! The runner: works through the scenes of an experiment, keeps what is done, and takes up what an
 //! earlier run kept.
 
+mod records;
+
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -10,16 +12,14 @@ use bevy_ecs::prelude::Entity;
 pub use super::event::{RunEvent, Watcher, unwatched};
 
 use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
-use super::collect::{collect, known_scores, named_scores, probe_records};
+use super::collect::collect;
 use super::keys;
 use super::results::{Costs, Results};
 use super::spec::{Spec, TextureSpec};
-use super::store::{PrefilterRecord, ProbeRecord, ReferenceRecord, Store, StoreError, TrialRecord};
+use super::store::{Store, StoreError};
 use super::work::Work;
-use crate::render::Converged;
 use crate::scene::{
-    BuildCost, Current, Exposure, Failure, Halt, LoadError, Prefilter, Probes, Progress,
-    ReferenceImage, Scores, Stagehand, Watch,
+    Current, Exposure, Failure, Halt, LoadError, Prefilter, ReferenceImage, Stagehand, Watch,
 };
 
 /// How a run ended, if not in an error.
@@ -62,6 +62,7 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
     stage.world.insert_resource(Watch(Arc::new(move |part| of_part(RunEvent::Partly { part }))));
     let plan = author(spec, &mut stage);
     let store = Store::open(folder, &keys::common(spec))?;
+    stage.world.insert_resource(store.shelf());
     let mut run =
         Run { spec, plan: &plan, store: &store, stage: &mut stage, watch, work, left: 0.0 };
     run.announce();
@@ -78,9 +79,37 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
     Ok(Outcome::Finished(Box::new(collect(spec, &plan, &store, &mut stage, costs))))
 }
 
+/// How much there is to an experiment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Units of work.
+    pub work: f64,
+    /// Scenes.
+    pub scenes: usize,
+    /// Trials.
+    pub trials: usize,
+}
+
+/// How much there is to an experiment, if nothing of it was done before.
+///
+/// # Errors
+/// If a texture cannot be loaded.
+pub fn extent(spec: &Spec) -> Result<Extent, RunError> {
+    let work = Work::of(spec, texels(spec)?);
+    let plan = author(spec, &mut Stagehand::new(spec.seed, Halt::default()));
+    Ok(Extent::of(&work, &plan))
+}
+
+impl Extent {
+    fn of(work: &Work, plan: &Plan) -> Self {
+        let trials = plan.scenes.iter().map(|scene| scene.trials.len()).sum();
+        Self { work: work.all(plan), scenes: plan.scenes.len(), trials }
+    }
+}
+
 /// The texels of each texture, once it is known that it can be had.
 fn texels(spec: &Spec) -> Result<Vec<f64>, RunError> {
-    let count = |texture: &TextureSpec| match load(texture) {
+    let count = |texture: &TextureSpec| match load(texture, spec.needs_heights()) {
         Ok(bumps) => Ok((bumps.normals.width() * bumps.normals.height()) as f64),
         Err(source) => Err(RunError::Texture { texture: texture.name.clone(), source }),
     };
@@ -101,10 +130,8 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn announce(&mut self) {
-        let scenes = &self.plan.scenes;
-        let work = self.work.all(self.plan);
-        let trials = scenes.iter().map(|scene| scene.trials.len()).sum();
-        (self.watch)(RunEvent::Started { work, scenes: scenes.len(), trials });
+        let Extent { work, scenes, trials } = Extent::of(&self.work, self.plan);
+        (self.watch)(RunEvent::Started { work, scenes, trials });
     }
 
     /// Tells that a piece of the current scene is done.
@@ -146,127 +173,6 @@ impl Run<'_> {
             }
         }
         Ok(!self.stage.world.resource::<Halt>().now())
-    }
-
-    /// Puts into the world what an earlier run finished of this scene.
-    fn take_up(&mut self, scene: &PlannedScene) {
-        let (depends, slug) = (keys::scene(scene), scene.slug.as_str());
-        let world = &mut self.stage.world;
-        let found: Option<(ReferenceRecord, _)> =
-            self.store.find_with_film(slug, keys::REFERENCE, &depends);
-        if let Some((record, film)) = found {
-            let converged = Converged { film, spp: record.spp, rmse: record.rmse };
-            world.entity_mut(scene.entity).insert(ReferenceImage(Arc::new(converged)));
-            self.advance(self.work.reference(), true);
-        }
-        for trial in &scene.trials {
-            let name = keys::trial_name(self.spec, trial);
-            let depends = keys::trial(self.spec, scene, trial);
-            let found: Option<(TrialRecord, _)> = self.store.find_with_film(slug, &name, &depends);
-            if let Some((record, film)) = found {
-                let exposure = Exposure { film: Arc::new(film), cpu_secs: record.cpu_secs };
-                let scores = known_scores(&record.scores);
-                let world = &mut self.stage.world;
-                world.entity_mut(trial.entity).insert((exposure, scores));
-                self.advance(self.work.trial(trial), true);
-            }
-        }
-    }
-
-    /// Whether nothing of this scene is pending (its probes and refusals included).
-    fn complete(&self, scene: &PlannedScene) -> bool {
-        let world = &self.stage.world;
-        let depends = keys::probes(self.spec, scene);
-        let refused = |trial: &PlannedTrial| {
-            let (folder, name) = keys::prefilter_name(self.spec, scene, trial.method);
-            let depends = keys::prefilter(self.spec, scene, trial.method);
-            let record: Option<PrefilterRecord> = self.store.find(&folder, &name, &depends);
-            record.is_some_and(|record| record.refusal.is_some())
-        };
-        let done =
-            |trial: &PlannedTrial| world.get::<Scores>(trial.entity).is_some() || refused(trial);
-        world.get::<ReferenceImage>(scene.entity).is_some()
-            && scene.trials.iter().all(done)
-            && self.store.find::<Vec<ProbeRecord>>(&scene.slug, keys::PROBES, &depends).is_some()
-    }
-
-    /// Keeps a piece of work that a tick has done.
-    fn keep(&mut self, scene: &PlannedScene, piece: &Progress) -> Result<(), RunError> {
-        match *piece {
-            Progress::Loaded { .. } | Progress::Rendered { .. } => {}
-            Progress::Prefiltered { prefilter } => self.keep_prefilter(scene, prefilter)?,
-            Progress::Converged { .. } => self.keep_reference(scene)?,
-            Progress::Scored { trial } => self.keep_trial(scene, trial)?,
-            Progress::Probed { .. } => self.keep_probes(scene)?,
-        }
-        Ok(())
-    }
-
-    fn keep_prefilter(&mut self, scene: &PlannedScene, entity: Entity) -> Result<(), RunError> {
-        let world = &self.stage.world;
-        let (Some(built), Some(cost)) =
-            (world.get::<Prefilter>(entity), world.get::<BuildCost>(entity))
-        else {
-            return Ok(());
-        };
-        let record = match &built.0 {
-            Ok(_) => PrefilterRecord { cost: Some((cost.secs, cost.bytes)), refusal: None },
-            Err(refusal) => PrefilterRecord { cost: None, refusal: Some(refusal.0.clone()) },
-        };
-        let method = scene.prefilters.iter().position(|&p| p == entity).unwrap_or_default();
-        let (folder, name) = keys::prefilter_name(self.spec, scene, method);
-        let depends = keys::prefilter(self.spec, scene, method);
-        self.store.keep(&folder, &name, &depends, &record)?;
-        // Prefilters are counted beside the scenes, which may share them.
-        let work = self.work.prefilter(scene, method);
-        (self.watch)(RunEvent::Advanced { work, kept: record.refusal.is_some() });
-        Ok(())
-    }
-
-    fn keep_reference(&mut self, scene: &PlannedScene) -> Result<(), RunError> {
-        self.advance(self.work.replicate(), false);
-        let Some(image) = self.stage.world.get::<ReferenceImage>(scene.entity) else {
-            return Ok(());
-        };
-        let record = ReferenceRecord { spp: image.0.spp, rmse: image.0.rmse };
-        let depends = keys::scene(scene);
-        self.store.keep_with_film(
-            &scene.slug,
-            keys::REFERENCE,
-            &depends,
-            &record,
-            &image.0.film,
-        )?;
-        Ok(())
-    }
-
-    fn keep_trial(&mut self, scene: &PlannedScene, entity: Entity) -> Result<(), RunError> {
-        let Some(trial) = scene.trials.iter().find(|trial| trial.entity == entity) else {
-            return Ok(());
-        };
-        let world = &self.stage.world;
-        let (Some(exposure), Some(scores)) =
-            (world.get::<Exposure>(entity), world.get::<Scores>(entity))
-        else {
-            return Ok(());
-        };
-        let record = TrialRecord { scores: named_scores(scores), cpu_secs: exposure.cpu_secs };
-        let rmse = scores.0.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |s| s.1);
-        let name = keys::trial_name(self.spec, trial);
-        let depends = keys::trial(self.spec, scene, trial);
-        self.store.keep_with_film(&scene.slug, &name, &depends, &record, &exposure.film)?;
-        self.advance(self.work.trial(trial), false);
-        let method = self.spec.sweep.methods[trial.method].label.clone();
-        let (scene, spp) = (scene.slug.clone(), trial.spp);
-        (self.watch)(RunEvent::Scored { scene, method, spp, rmse });
-        Ok(())
-    }
-
-    fn keep_probes(&mut self, scene: &PlannedScene) -> Result<(), RunError> {
-        let Some(probes) = self.stage.world.get::<Probes>(scene.entity) else { return Ok(()) };
-        let records = probe_records(self.spec, scene, probes);
-        self.store.keep(&scene.slug, keys::PROBES, &keys::probes(self.spec, scene), &records)?;
-        Ok(())
     }
 
     /// Lets go of what no later scene needs: the maps of the texture after its last scene.

@@ -13,11 +13,14 @@ use serde::{Deserialize, Serialize};
 use super::results::{ProbedMethod, Score};
 use crate::file::write_whole;
 use crate::render::{Film, FilmError};
+use crate::scene::Shelf;
 
 /// The folder of an experiment's results.
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: PathBuf,
+    /// Digest of the running program.
+    program: blake3::Hash,
     /// Digest of everything that all records depend on.
     common: blake3::Hash,
 }
@@ -100,10 +103,18 @@ impl Store {
         std::fs::create_dir_all(folder)
             .map_err(|source| StoreError::Write { path: folder.to_owned(), source })?;
         let program = std::env::current_exe().and_then(std::fs::read);
+        let program = blake3::hash(&program.map_err(StoreError::Program)?);
         let mut hasher = blake3::Hasher::new();
-        hasher.update(&program.map_err(StoreError::Program)?);
+        hasher.update(program.as_bytes());
         hasher.update(depends.as_bytes());
-        Ok(Self { folder: folder.to_owned(), common: hasher.finalize() })
+        Ok(Self { folder: folder.to_owned(), program, common: hasher.finalize() })
+    }
+
+    /// Where prefiltered maps are kept. They depend on the program and on what their own keys say, not on
+    /// the rest of the spec.
+    pub fn shelf(&self) -> Shelf {
+        let folder = self.folder.join(".state").join("prefilters");
+        Shelf { folder, program: *self.program.as_bytes() }
     }
 
     /// Where the image of a record is.
@@ -137,10 +148,18 @@ impl Store {
         value: &T,
         film: &Film,
     ) -> Result<(), StoreError> {
+        self.keep_film(scene, name, film)?;
+        self.write_record(scene, name, depends, Some(film.digest()), value)
+    }
+
+    /// Keeps an image without a record.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn keep_film(&self, scene: &str, name: &str, film: &Film) -> Result<(), StoreError> {
         let path = self.image_path(scene, name);
         make_parent(&path)?;
-        film.write_exr(&path)?;
-        self.write_record(scene, name, depends, Some(film_digest(film)), value)
+        Ok(film.write_exr(&path)?)
     }
 
     /// The record named `name` of `scene`, if there is one and it depends on just this.
@@ -157,7 +176,7 @@ impl Store {
     ) -> Option<(T, Film)> {
         let kept: Kept<T> = self.read_record(scene, name, depends)?;
         let film = Film::read_exr(&self.image_path(scene, name)).ok()?;
-        (kept.image? == film_digest(&film)).then_some((kept.value, film))
+        (kept.image? == film.digest()).then_some((kept.value, film))
     }
 
     fn record_path(&self, scene: &str, name: &str) -> PathBuf {
@@ -196,10 +215,6 @@ impl Store {
         let kept: Kept<T> = serde_json::from_slice(&text).ok()?;
         (kept.digest == self.digest(depends)).then_some(kept)
     }
-}
-
-fn film_digest(film: &Film) -> String {
-    blake3::hash(bytemuck::cast_slice(film.pixels())).to_hex().to_string()
 }
 
 fn make_parent(path: &Path) -> Result<(), StoreError> {

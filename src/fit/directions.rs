@@ -43,6 +43,11 @@ impl Directions {
         Ok(Self { grid: None, count, axes: axes(units.into_iter()) })
     }
 
+    /// The grid they are of; `None` if they are scattered.
+    pub fn grid(&self) -> Option<&HemisphereGrid> {
+        self.grid.as_ref()
+    }
+
     /// Number of directions.
     pub fn count(&self) -> usize {
         self.count

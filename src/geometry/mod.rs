@@ -1,7 +1,8 @@
-//! Floor 0: vectors, frames, hemisphere grids, and elementary functions that give the same bits on
+//! Floor 0: vectors, frames, hemisphere grids, the Fourier transform, and elementary functions that give the same bits on
 //! every machine.
 
 pub mod elementary;
+pub mod fourier;
 mod frame;
 mod hemisphere;
 mod quad;

@@ -11,17 +11,25 @@
 mod base;
 mod elliptic;
 mod facet;
+mod horizon;
 mod multiple_surface;
+mod named;
 mod peak;
 mod pearson;
 mod pedal;
+mod reflection;
 pub mod round;
+mod surface_file;
 pub mod vector;
 
 pub use base::BaseLobe;
 pub use elliptic::{EllipticLobe, Profile};
 pub use facet::{Facet, Shading, Spread};
-pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface};
+pub use horizon::Horizon;
+pub use multiple_surface::{CAPACITY, Lobe, MultipleSurface, Visibility};
+pub use named::{NamedSurface, find_named, named};
 pub use peak::PhongPeak;
 pub use pearson::PearsonLobe;
 pub use pedal::PedalLobe;
+pub use reflection::reflection;
+pub use surface_file::{SurfaceFileError, read_peaks};

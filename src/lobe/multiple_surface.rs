@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::vector::V3;
-use super::{EllipticLobe, Facet, PearsonLobe, PedalLobe, PhongPeak, Shading, Spread};
+use super::{EllipticLobe, Facet, Horizon, PearsonLobe, PedalLobe, PhongPeak, Shading, Spread};
 
 /// The most lobes a footprint can have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2 levels,
 /// and the unfiltered lobe that magnification blends in.
@@ -72,10 +72,54 @@ macro_rules! lobe_from {
 }
 lobe_from!(Elliptic(EllipticLobe), Peak(PhongPeak), Pedal(PedalLobe), Pearson(PearsonLobe));
 
-/// What a filter makes of a footprint: up to [`CAPACITY`] lobes whose densities add.
+/// What a filter makes of a footprint: up to [`CAPACITY`] lobes whose densities add. Lobes may have
+/// horizons, which matter to the light they send ([`MultipleSurface::radiance`]) but not to what they
+/// are.
 #[derive(Clone, Debug, Default)]
 pub struct MultipleSurface {
     lobes: ArrayVec<Lobe, CAPACITY>,
+    /// One a lobe, or none at all.
+    horizons: ArrayVec<(Horizon, f32), CAPACITY>,
+    ratioed: bool,
+}
+
+/// How much of a multiple surface sees light and eye, lobe by lobe (Fournier 1992 §5).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Visibility {
+    area: f32,
+    seen: f32,
+}
+
+impl Visibility {
+    /// The part of a lobe's light that its horizon lets by, from `light` and to `view`: the product of
+    /// both. `area` is the part of the surface the lobe stands for.
+    #[inline(always)]
+    pub fn of(&mut self, horizon: &Horizon, area: f32, light: V3, view: V3) -> f32 {
+        let seen = horizon.visibility(view);
+        self.area += area;
+        self.seen += area * seen;
+        seen * horizon.visibility(light)
+    }
+
+    /// What light is multiplied by where what is seen fills the view: the area of all lobes over that of
+    /// their parts that the eye sees; 0 if it sees none ("the contributions of the visible components
+    /// should be correctly ratioed to correct for the smaller visible area", §5).
+    #[inline(always)]
+    pub fn ratio(&self) -> f32 {
+        if self.seen > 0.0 { self.area / self.seen } else { 0.0 }
+    }
+}
+
+/// A surface of all these lobes.
+///
+/// # Panics
+/// If there are more than [`CAPACITY`]: whoever takes lobes from a user counts them.
+impl<L: Into<Lobe>> FromIterator<L> for MultipleSurface {
+    fn from_iter<I: IntoIterator<Item = L>>(lobes: I) -> Self {
+        let mut surface = Self::new();
+        lobes.into_iter().for_each(|lobe| surface.add(lobe, 1.0));
+        surface
+    }
 }
 
 impl MultipleSurface {
@@ -94,6 +138,29 @@ impl MultipleSurface {
         }
     }
 
+    /// Adds a lobe as [`MultipleSurface::add`] does, with its horizon and the part of the surface it
+    /// stands for at weight 1. If one lobe has a horizon, all must.
+    ///
+    /// # Panics
+    /// As [`MultipleSurface::add`].
+    pub fn add_behind(&mut self, lobe: impl Into<Lobe>, weight: f32, horizon: Horizon, area: f32) {
+        if weight > 0.0 {
+            self.add(lobe, weight);
+            self.horizons.push((horizon, weight * area));
+        }
+    }
+
+    /// The same surface, the light of its visible parts [`Visibility::ratio`]ed.
+    pub fn ratioed(mut self) -> Self {
+        self.ratioed = true;
+        self
+    }
+
+    /// Whether its lobes have horizons: what light they send depends on where it comes from and goes to.
+    pub fn has_horizons(&self) -> bool {
+        !self.horizons.is_empty()
+    }
+
     /// The lobes.
     pub fn lobes(&self) -> &[Lobe] {
         &self.lobes
@@ -104,8 +171,16 @@ impl MultipleSurface {
         self.lobes.iter().map(|lobe| lobe.density(h)).sum()
     }
 
-    /// Radiance for unit irradiance (see [`Shading`]), summed over the lobes.
+    /// Radiance for unit irradiance (see [`Shading`]), summed over the lobes, of each what its horizon
+    /// lets by.
     pub fn radiance(&self, shading: Shading, half: V3, light: V3, view: V3) -> f32 {
-        self.lobes.iter().map(|lobe| lobe.radiance(shading, half, light, view)).sum()
+        let all = self.lobes.iter().map(|lobe| lobe.radiance(shading, half, light, view));
+        if self.horizons.is_empty() {
+            return all.sum();
+        }
+        let mut visibility = Visibility::default();
+        let by = self.horizons.iter().map(|(h, area)| visibility.of(h, *area, light, view));
+        let sum: f32 = all.zip(by).map(|(sent, part)| sent * part).sum();
+        if self.ratioed { sum * visibility.ratio() } else { sum }
     }
 }

@@ -26,9 +26,10 @@ pub struct Batch {
     pub jacobian: [Lane; 4],
     /// Direction of the half vector; any length.
     pub half: [Lane; 3],
-    /// Unit direction to the light; unset for [`crate::lobe::Shading::Ndf`].
+    /// Unit direction to the light; unset for [`crate::lobe::Shading::Ndf`] where the method does not
+    /// need directions.
     pub light: [Lane; 3],
-    /// Unit direction to the eye; unset for [`crate::lobe::Shading::Ndf`].
+    /// Unit direction to the eye; set as `light` is.
     pub view: [Lane; 3],
     /// Irradiance on a plane facing the light; 0 where the ray misses or the light is below the
     /// horizon of the surface.

@@ -1,17 +1,22 @@
 //! Fournier's multiple surfaces (1992).
 
+mod counts;
 mod lookup;
 mod pyramid;
+mod shadow;
+mod stored;
 
 use std::sync::Arc;
 
-pub use pyramid::{LevelCounts, count_fits};
+pub use counts::{LevelCounts, count_fits};
+pub use shadow::Shadowing;
 
-use super::{Card, Entry, Method, PrefilterError, Prefiltered, Progress, Refusal};
-use crate::fit::GreedyOptions;
+use super::{Card, Damaged, Entry, Method, PrefilterError, Prefiltered, Progress, Refusal};
+use crate::fit::{Directions, GreedyOptions};
+use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
-use crate::texture::NormalMap;
+use crate::texture::{HorizonMap, NormalMap};
 
 /// Up to 7 Phong peaks a cell of a pyramid, fitted to what the normals below spread to.
 ///
@@ -31,8 +36,20 @@ use crate::texture::NormalMap;
 /// smooth bumps and on a hemisphere it is below half a percent. With `energy = "rescaled"` a fitted
 /// cell's amplitudes are multiplied so that its vector moment along its mean normal is exactly that of
 /// its normals.
+///
+/// # Fast
+/// With `mode = "fast"` nothing is sampled: a cell's normals are gathered by direction and represented by
+/// [`crate::fit::mixture`], whose integrals have closed forms. `max_peaks` and `stop` mean what they do in the
+/// paper's mode, by those integrals; the energy is kept exactly; no grid can be too coarse for narrow lobes.
+///
+/// # Masking and self-shadowing
+/// With `shadowing` each peak carries the slopes of the horizon of its normals towards −x, +x, −y, +y, as
+/// mean and standard deviation (§5), from the map's heights; where a map has none, from heights
+/// integrated from its normals. See [`Shadowing`]. It changes what light a peak sends, not the peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fournier {
+    /// How a cell's peaks are found.
+    pub mode: Mode,
     /// When to stop adding peaks.
     pub greedy: GreedyOptions,
     /// Rings of the hemisphere grid.
@@ -41,12 +58,31 @@ pub struct Fournier {
     pub azimuths: usize,
     /// Whether fitted amplitudes are rescaled to keep the energy.
     pub rescaled: bool,
+    /// What of a peak's light reaches the eye.
+    pub shadowing: Shadowing,
+}
+
+/// How a cell's peaks are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// As in the paper: a least-squares fit to the distribution sampled over the hemisphere.
+    #[default]
+    Paper,
+    /// A mixture in closed form: [`crate::fit::mixture`].
+    Fast,
 }
 
 impl Default for Fournier {
     /// As printed.
     fn default() -> Self {
-        Self { greedy: GreedyOptions::default(), rings: 18, azimuths: 72, rescaled: false }
+        Self {
+            mode: Mode::Paper,
+            greedy: GreedyOptions::default(),
+            rings: 18,
+            azimuths: 72,
+            rescaled: false,
+            shadowing: Shadowing::None,
+        }
     }
 }
 
@@ -65,6 +101,12 @@ const CARD: Card = Card {
 };
 
 const PARAMETERS: &[Parameter] = &[
+    Parameter {
+        name: "mode",
+        meaning: "paper: fits to the distribution sampled over the hemisphere; fast: mixtures in \
+                  closed form, without samples, which keep energy exactly",
+        domain: Domain::Choice { words: &["paper", "fast"] },
+    },
     Parameter {
         name: "max_peaks",
         meaning: "the most peaks a cell may have; as many distinct normals are kept as they are",
@@ -92,6 +134,11 @@ const PARAMETERS: &[Parameter] = &[
                   a cell's energy is that of its normals",
         domain: Domain::Choice { words: &["fitted", "rescaled"] },
     },
+    Parameter {
+        name: "shadowing",
+        meaning: "none: every peak is seen and lit; printed: by the part of it that sees both light and                   eye over the horizon of its normals (§5); ratioed: what is seen then fills the pixel",
+        domain: Domain::Choice { words: &["none", "printed", "ratioed"] },
+    },
 ];
 
 /// The registry's line.
@@ -102,6 +149,7 @@ pub(super) fn entry() -> Entry {
 impl Fournier {
     fn new(values: &Values) -> Self {
         Self {
+            mode: if values.word("mode") == "fast" { Mode::Fast } else { Mode::Paper },
             greedy: GreedyOptions {
                 max_peaks: values.whole("max_peaks"),
                 stop: values.number("stop"),
@@ -110,22 +158,49 @@ impl Fournier {
             rings: values.whole("rings"),
             azimuths: values.whole("azimuths"),
             rescaled: values.word("energy") == "rescaled",
+            shadowing: match values.word("shadowing") {
+                "printed" => Shadowing::Printed,
+                "ratioed" => Shadowing::Ratioed,
+                _ => Shadowing::None,
+            },
         }
     }
 }
 
-/// The exponent of a base lobe the method can take.
-fn exponent(base: &BaseLobe) -> Result<f64, Refusal> {
-    match *base {
-        BaseLobe::BlinnPhong { exponent } if exponent.is_finite() && exponent > 0.0 => Ok(exponent),
-        BaseLobe::BlinnPhong { exponent } => {
-            Err(Refusal(format!("exponent {exponent} spreads no normal: it must be above 0")))
+/// The largest exponent of a base lobe whose normals can be fitted, and of a peak that can come of them.
+const FITTED: f64 = 1e4;
+/// The largest exponent of a base lobe in the fast mode: single precision resolves no narrower lobe.
+const MIXED: f64 = 1e6;
+
+/// What the exponents of peaks may be, for normals spread with this base exponent.
+fn widest_range(exponent: f64) -> std::ops::RangeInclusive<f32> {
+    0.0..=exponent.max(FITTED) as f32
+}
+
+impl Fournier {
+    /// The exponent of a base lobe the method can take.
+    fn exponent(&self, base: &BaseLobe) -> Result<f64, Refusal> {
+        let BaseLobe::BlinnPhong { exponent } = *base else {
+            let name = base.name();
+            return refused(format!(
+                "Fournier's peaks are Phong lobes: a {name} base lobe is none"
+            ));
+        };
+        let most = if self.mode == Mode::Fast { MIXED } else { FITTED };
+        if exponent.is_nan() || exponent <= 0.0 {
+            refused(format!("exponent {exponent} spreads no normal: it must be above 0"))
+        } else if exponent > most {
+            let other =
+                if self.mode == Mode::Fast { "" } else { ", or to 1000000 with mode = \"fast\"" };
+            refused(format!("exponent {exponent} is out of reach: fits go up to {most}{other}"))
+        } else {
+            Ok(exponent)
         }
-        _ => Err(Refusal(format!(
-            "Fournier's peaks are Phong lobes: a {} base lobe is none",
-            base.name()
-        ))),
     }
+}
+
+fn refused<T>(why: String) -> Result<T, Refusal> {
+    Err(Refusal(why))
 }
 
 impl Method for Fournier {
@@ -134,12 +209,19 @@ impl Method for Fournier {
     }
 
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal> {
-        exponent(base).map(|_| 0.0)
+        self.exponent(base).map(|_| 0.0)
+    }
+
+    fn needs_heights(&self) -> bool {
+        self.shadowing != Shadowing::None
     }
 
     fn prefilter_work(&self) -> f64 {
-        // A third of a cell is above each texel; a fit of one is a thousand samples, as measured.
-        3000.0
+        // As measured: a third of a cell is above each texel, and a fit is a thousand samples' work and more.
+        match self.mode {
+            Mode::Paper => 3000.0,
+            Mode::Fast => 300.0,
+        }
     }
 
     fn prefilter(
@@ -148,10 +230,43 @@ impl Method for Fournier {
         base: &BaseLobe,
         progress: &dyn Progress,
     ) -> Result<Box<dyn Prefiltered>, PrefilterError> {
-        let exponent = exponent(base)?;
+        let exponent = self.exponent(base)?;
         let levels = pyramid::build(self, map, exponent, progress)?;
         let stored = levels.iter().map(lookup::StoredLevel::new).collect();
-        Ok(Box::new(lookup::PeakMap::new(Arc::clone(map), exponent, stored)))
+        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored);
+        if self.shadowing == Shadowing::None {
+            return Ok(Box::new(peaks));
+        }
+        let grid = HemisphereGrid::new(self.rings, self.azimuths);
+        let collector = shadow::Collector {
+            map,
+            texels: HorizonMap::of(&map.heights_or_integrated()),
+            exponent,
+            directions: Directions::new(grid.clone()),
+            grid,
+            max_peaks: self.greedy.max_peaks,
+            cancelled: &|| progress.cancelled(),
+        };
+        let ratioed = self.shadowing == Shadowing::Ratioed;
+        let shadowed = shadow::shadowed(peaks, collector, ratioed);
+        Ok(Box::new(shadowed.ok_or(PrefilterError::Cancelled)?))
+    }
+
+    fn restore(
+        &self,
+        map: &Arc<NormalMap>,
+        base: &BaseLobe,
+        bytes: &[u8],
+    ) -> Result<Box<dyn Prefiltered>, Damaged> {
+        let exponent = self.exponent(base).map_err(|refusal| Damaged(refusal.0))?;
+        let stored = stored::from_bytes(map, exponent, self.shadowing != Shadowing::None, bytes)?;
+        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored.levels);
+        if self.shadowing == Shadowing::None {
+            return Ok(Box::new(peaks));
+        }
+        let texels = HorizonMap::of(&map.heights_or_integrated());
+        let (levels, ratioed) = (stored.horizons, self.shadowing == Shadowing::Ratioed);
+        Ok(Box::new(shadow::ShadowedPeakMap { peaks, texels, levels, ratioed }))
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod averaged;
 mod batch;
+mod constant;
 pub mod fournier;
 mod lean;
 mod olano_north;
@@ -13,10 +14,13 @@ mod one_lobe;
 mod registry;
 mod schilling;
 mod toksvig;
+mod truth;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
+pub use constant::Constant;
 pub use registry::{Entry, brute_force, build, entries, find};
+pub use truth::{Truth, truth};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
 use crate::texture::{Footprint, NormalMap};
@@ -61,6 +65,11 @@ pub enum PrefilterError {
     Cancelled,
 }
 
+/// Why kept bytes are no prefiltered map: what is wrong with them.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Damaged(pub String);
+
 /// How a long prefilter tells how far it is and learns that it should stop.
 pub trait Progress: Sync {
     /// `done` of `total` units of work are done. Called from any thread.
@@ -91,6 +100,12 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// A [`Refusal`] if it cannot take this base lobe at all.
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
 
+    /// Whether it looks at the heights a map's normals are of ([`NormalMap::heights`]). Where there are
+    /// none it integrates them itself; a map that several share had better come with them.
+    fn needs_heights(&self) -> bool {
+        false
+    }
+
     /// A guess of the work of [`Method::prefilter`] a texel, in times of one unfiltered sample: it tells
     /// how much of a long run is done.
     fn prefilter_work(&self) -> f64 {
@@ -108,6 +123,22 @@ pub trait Method: Send + Sync + std::fmt::Debug {
         base: &BaseLobe,
         progress: &dyn Progress,
     ) -> Result<Box<dyn Prefiltered>, PrefilterError>;
+
+    /// The prefiltered map whose [`Prefiltered::store`] gave `bytes`, for the same map and base lobe: it
+    /// shades the same, bit by bit. Whoever keeps the bytes sees to it that they are whole and belong to
+    /// this method with these options; any bytes may come, and none make it panic.
+    ///
+    /// # Errors
+    /// [`Damaged`] if the bytes are no such map.
+    fn restore(
+        &self,
+        map: &std::sync::Arc<NormalMap>,
+        base: &BaseLobe,
+        bytes: &[u8],
+    ) -> Result<Box<dyn Prefiltered>, Damaged> {
+        let _ = (map, base, bytes);
+        Err(Damaged(format!("{} keeps no prefiltered maps", self.card().name)))
+    }
 }
 
 /// A normal map made ready by a method.
@@ -115,9 +146,20 @@ pub trait Prefiltered: Send + Sync {
     /// Memory it holds beyond the normal map itself, in bytes.
     fn bytes(&self) -> usize;
 
+    /// What [`Method::restore`] makes this from again; `None` if it is built too fast to be worth keeping.
+    fn store(&self) -> Option<Vec<u8>> {
+        None
+    }
+
     /// Whether it looks at footprints at all; if not, batches come without them.
     fn needs_footprint(&self) -> bool {
         true
+    }
+
+    /// Whether it looks at the directions to light and eye even where shading needs only the half
+    /// vector ([`Shading::Ndf`]); if not, such batches come without them.
+    fn needs_directions(&self) -> bool {
+        false
     }
 
     /// The multiple surface at a footprint, in tangent space.

@@ -34,5 +34,5 @@ pub fn build(name: &str) -> Option<Box<dyn Method>> {
 
 /// The method that, with many samples a pixel, is the supersampled truth.
 pub fn brute_force() -> Box<dyn Method> {
-    Box::new(unfiltered::Unfiltered)
+    Box::new(unfiltered::Unfiltered::default())
 }

@@ -9,14 +9,21 @@ use super::{
 use crate::geometry::{Kernel, vectorised};
 use crate::lobe::round::{Beckmann, Ggx, Phong, RoundLobe};
 use crate::lobe::vector::{dot, tan_squared};
-use crate::lobe::{BaseLobe, MultipleSurface, Shading};
-use crate::texture::{Footprint, NormalMap, Wrap};
+use crate::lobe::{BaseLobe, Horizon, MultipleSurface, Shading};
+use crate::parameter::{Domain, Parameter};
+use crate::texture::{Footprint, HorizonMap, NormalMap, Wrap};
 
 /// One base lobe about the perturbed normal at the sample's centre, whatever the footprint holds.
 ///
 /// With many samples a pixel this *is* the supersampled truth: the reference averages it.
+///
+/// Shadowed, it is dark where the horizon hides the light or the eye (Fournier 1992 §5). The slopes of the
+/// horizon are interpolated between texels as normals are.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Unfiltered;
+pub struct Unfiltered {
+    /// Whether bumps mask and shadow each other.
+    pub shadowed: bool,
+}
 
 const CARD: Card = Card {
     name: "unfiltered",
@@ -29,9 +36,20 @@ const CARD: Card = Card {
     precision: 1e-3,
 };
 
+const PARAMETERS: &[Parameter] = &[Parameter {
+    name: "shadowing",
+    meaning: "none: all is seen and lit; printed: what lies below the horizon of light or eye is dark \
+              (Fournier 1992 §5)",
+    domain: Domain::Choice { words: &["none", "printed"] },
+}];
+
 /// The registry's line.
 pub(super) fn entry() -> Entry {
-    Entry { card: CARD, parameters: &[], build: |_| Box::new(Unfiltered) }
+    Entry {
+        card: CARD,
+        parameters: PARAMETERS,
+        build: |values| Box::new(Unfiltered { shadowed: values.word("shadowing") == "printed" }),
+    }
 }
 
 impl Method for Unfiltered {
@@ -43,13 +61,22 @@ impl Method for Unfiltered {
         Ok(0.0)
     }
 
+    fn needs_heights(&self) -> bool {
+        self.shadowed
+    }
+
     fn prefilter(
         &self,
         map: &Arc<NormalMap>,
         base: &BaseLobe,
         _progress: &dyn Progress,
     ) -> Result<Box<dyn Prefiltered>, PrefilterError> {
-        Ok(Box::new(UnfilteredMap { map: Arc::clone(map), base: *base }))
+        let unfiltered = UnfilteredMap { map: Arc::clone(map), base: *base };
+        if !self.shadowed {
+            return Ok(Box::new(unfiltered));
+        }
+        let horizons = HorizonMap::of(&map.heights_or_integrated());
+        Ok(Box::new(ShadowedMap { unfiltered, horizons }))
     }
 }
 
@@ -79,6 +106,49 @@ impl Prefiltered for UnfilteredMap {
             BaseLobe::BlinnPhong { exponent } => of.shade(shading, Phong::new(exponent)),
             BaseLobe::Beckmann { alpha } => of.shade(shading, Beckmann::new(alpha)),
             BaseLobe::Ggx { alpha } => of.shade(shading, Ggx::new(alpha)),
+        }
+    }
+}
+
+/// The same behind the horizons of the map's heights.
+struct ShadowedMap {
+    unfiltered: UnfilteredMap,
+    horizons: HorizonMap,
+}
+
+impl ShadowedMap {
+    #[inline(always)]
+    fn horizon(&self, u: f32, v: f32) -> Horizon {
+        Horizon::sharp(self.horizons.sample(u, v))
+    }
+}
+
+impl Prefiltered for ShadowedMap {
+    fn bytes(&self) -> usize {
+        self.horizons.bytes()
+    }
+
+    fn needs_footprint(&self) -> bool {
+        false
+    }
+
+    fn needs_directions(&self) -> bool {
+        true
+    }
+
+    fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
+        let UnfilteredMap { map, base } = &self.unfiltered;
+        let mut surface = MultipleSurface::new();
+        let lobe = unfiltered_lobe(map, base, at.u, at.v);
+        surface.add_behind(lobe, 1.0, self.horizon(at.u, at.v), 1.0);
+        surface
+    }
+
+    fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        self.unfiltered.shade(batch, shading, radiance);
+        for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
+            let horizon = self.horizon(batch.u[i], batch.v[i]);
+            *out *= horizon.visibility(batch.light(i)) * horizon.visibility(batch.view(i));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Parallel half cylinders (Fournier 1992 §2.3 and §4).
 
-use super::view::{WEIGHT, from_above, place};
+use super::view::{Seen, WEIGHT, from_above, place};
 use super::{Bumps, Card, Entry};
 use crate::parameter::{Domain, Parameter, Values};
 
@@ -34,14 +34,16 @@ pub const ENTRY: Entry = Entry {
 
 fn build(width: usize, height: usize, values: &Values, _seed: u64) -> Bumps {
     let (count, along_v) = (values.whole("count"), values.word("axis") == "v");
-    let normals = from_above(width, height, values, |i, j| {
+    let radius = if along_v { width } else { height } as f64 / (2 * count) as f64;
+    let (normals, heights) = from_above(width, height, values, |i, j| {
         let across = if along_v { place(i, width, count).1 } else { place(j, height, count).1 };
         let z = (1.0 - across * across).sqrt();
-        Some(match (z > 0.0, along_v) {
+        let normal = match (z > 0.0, along_v) {
             (false, _) => [0.0, 0.0, 1.0],
             (true, true) => [across, 0.0, z],
             (true, false) => [0.0, across, z],
-        })
+        };
+        Some(Seen { normal, height: radius * z })
     });
-    Bumps { normals, heights: None, notes: vec![] }
+    Bumps { normals, heights: Some(heights), notes: vec![] }
 }

@@ -1,6 +1,6 @@
 //! Hemispheres in a square array (Fournier 1992 §2.3 and §3, his "sphere").
 
-use super::view::{BACKGROUND, WEIGHT, from_above, place};
+use super::view::{BACKGROUND, Seen, WEIGHT, from_above, place};
 use super::{Bumps, Card, Entry};
 use crate::parameter::{Domain, Parameter, Values};
 
@@ -35,10 +35,12 @@ fn build(width: usize, height: usize, values: &Values, _seed: u64) -> Bumps {
     // Radius 1 is half the shorter side of a cell.
     let shorter = width.min(height) as f64;
     let (wide, high) = (width as f64 / shorter, height as f64 / shorter);
-    let normals = from_above(width, height, values, |i, j| {
+    let radius = shorter / (2 * count) as f64;
+    let (normals, heights) = from_above(width, height, values, |i, j| {
         let (x, y) = (place(i, width, count).1 * wide, place(j, height, count).1 * high);
         let square = 1.0 - x * x - y * y;
-        (square > 1e-9).then(|| [x, y, square.sqrt()])
+        let z = square.max(0.0).sqrt();
+        (square > 1e-9).then_some(Seen { normal: [x, y, z], height: radius * z })
     });
-    Bumps { normals, heights: None, notes: vec![] }
+    Bumps { normals, heights: Some(heights), notes: vec![] }
 }

@@ -4,7 +4,6 @@ mod bricks;
 mod cylinders;
 pub mod file;
 mod flat;
-mod fourier;
 mod gaussian;
 mod grid;
 mod hemispheres;

@@ -6,7 +6,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use super::Bumps;
-use super::fourier::{Complex, product, synthesise, turn};
+use crate::geometry::fourier::{Complex, product, synthesise, turn};
 use crate::texture::{HeightMap, NormalMap, Wrap};
 
 /// A cosine wave that repeats with the tile: `amplitude` · cos(2π(m u + n v) + phase).

@@ -7,8 +7,9 @@
 //! The geometry of the paper's own denim is not printed. With straight threads its count of 85 fits
 //! comes out; which weave gave its 63 fits at seven peaks is lost.
 
-use super::view::{WEIGHT, from_above};
+use super::view::{Seen, WEIGHT, from_above};
 use super::{Bumps, Card, Entry};
+use crate::geometry::elementary::ln64;
 use crate::parameter::{Domain, Parameter, Values};
 
 /// Threads as half cylinders seen from above: straight, or each visible stretch bent to an arc.
@@ -56,13 +57,13 @@ fn build(width: usize, height: usize, values: &Values, _seed: u64) -> Bumps {
         phase: values.whole("phase"),
         bend: values.number("bend").to_radians(),
     };
-    let normals = from_above(width, height, values, |i, j| Some(weave.normal(i, j)));
+    let (normals, heights) = from_above(width, height, values, |i, j| Some(weave.top(i, j)));
     let repeat = weave.pitch * (weave.over + 1);
     let meets = width.is_multiple_of(repeat) && height.is_multiple_of(repeat);
     let seam = (!meets).then(|| {
         format!("the weave repeats every {repeat} texels, so it does not meet itself at the edges")
     });
-    Bumps { normals, heights: None, notes: seam.into_iter().collect() }
+    Bumps { normals, heights: Some(heights), notes: seam.into_iter().collect() }
 }
 
 /// A twill's layout; lengths in texels, `bend` in radians.
@@ -74,19 +75,20 @@ struct Weave {
 }
 
 impl Weave {
-    /// The normal of the thread on top at the centre of texel (i, j).
-    fn normal(&self, i: usize, j: usize) -> [f64; 3] {
+    /// The thread on top at the centre of texel (i, j).
+    fn top(&self, i: usize, j: usize) -> Seen {
         let (column, in_column) = self.thread(i);
         let (row, in_row) = self.thread(j);
         // Minus one column is plus `over` columns: the weave repeats after over + 1.
         let step = (self.over * column + row + self.phase) % (self.over + 1);
         if step == 0 {
             // The warp dives under this one weft thread.
-            let [across, along, z] = self.tube(2.0 * in_row - 1.0, 2.0 * in_column - 1.0);
-            [along, across, z]
+            let Seen { normal: [across, along, z], height } =
+                self.tube(2.0 * in_row - 1.0, 2.0 * in_column - 1.0, 1);
+            Seen { normal: [along, across, z], height }
         } else {
             let stretch = ((step - 1) as f64 + in_row) / self.over as f64;
-            self.tube(2.0 * in_column - 1.0, 2.0 * stretch - 1.0)
+            self.tube(2.0 * in_column - 1.0, 2.0 * stretch - 1.0, self.over)
         }
     }
 
@@ -95,11 +97,19 @@ impl Weave {
         (i / self.pitch, (2 * (i % self.pitch) + 1) as f64 / (2 * self.pitch) as f64)
     }
 
-    /// [across, along, z] of a tube's unit normal: a circle across, turned from −bend to bend along the
-    /// visible stretch. Both coordinates run from −1 to 1.
-    fn tube(&self, across: f64, along: f64) -> [f64; 3] {
+    /// A tube seen from above, its unit normal as [across, along, z]: a circle across, turned from −bend
+    /// to bend along the visible stretch, which is `threads` pitches long. Both coordinates run from −1
+    /// to 1.
+    ///
+    /// Its centre line, of slope −tan(bend · along), is the arc ln cos(bend · along) / bend times half the
+    /// stretch, its crest at height 0. The top is above it by the radius over the cosine of the line's
+    /// own tilt: the tube is taken for straight there, as it is in the normal.
+    fn tube(&self, across: f64, along: f64, threads: usize) -> Seen {
         let up = (1.0 - across * across).sqrt();
         let (sin, cos) = libm::sincos(self.bend * along);
-        [across, up * sin, up * cos]
+        let radius = self.pitch as f64 / 2.0;
+        let arc = if self.bend > 0.0 { ln64(cos) / self.bend } else { 0.0 };
+        let height = radius * (threads as f64 * arc + up / cos);
+        Seen { normal: [across, up * sin, up * cos], height }
     }
 }

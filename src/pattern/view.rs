@@ -5,7 +5,7 @@
 //! means this weight. Only it makes a hemisphere's normals equally distributed over all directions.
 
 use crate::parameter::{Domain, Parameter, Values};
-use crate::texture::{NormalMap, Wrap};
+use crate::texture::{HeightMap, NormalMap, Wrap};
 
 /// Whether leaning surface counts by its own area.
 pub(super) const WEIGHT: Parameter = Parameter {
@@ -21,25 +21,34 @@ pub(super) const BACKGROUND: Parameter = Parameter {
     domain: Domain::Choice { words: &["flat", "none"] },
 };
 
-/// A map of `width` × `height` texels, tiled, of what `look(i, j)` sees at texel (i, j): a unit normal
-/// with z > 0, or nothing. `values` must hold [`WEIGHT`]; [`BACKGROUND`] too if `look` can miss.
+/// What a ray straight down meets: the surface's unit normal, z > 0, and its height above the ground in
+/// sides of a texel.
+pub(super) struct Seen {
+    pub normal: [f64; 3],
+    pub height: f64,
+}
+
+/// Maps of `width` × `height` texels, tiled, of what `look(i, j)` sees at texel (i, j), where nothing is
+/// the ground. `values` must hold [`WEIGHT`]; [`BACKGROUND`] too if `look` can miss.
 pub(super) fn from_above(
     width: usize,
     height: usize,
     values: &Values,
-    look: impl Fn(usize, usize) -> Option<[f64; 3]>,
-) -> NormalMap {
+    look: impl Fn(usize, usize) -> Option<Seen>,
+) -> (NormalMap, HeightMap) {
     let by_area = values.word(WEIGHT.name) == "area";
-    let texel = |i, j| match look(i, j) {
-        Some([x, y, z]) => [x, y, z, if by_area { 1.0 / z } else { 1.0 }],
+    let texel = |seen: &Option<Seen>| match *seen {
+        Some(Seen { normal: [x, y, z], .. }) => [x, y, z, if by_area { 1.0 / z } else { 1.0 }],
         None => [0.0, 0.0, 1.0, if values.word(BACKGROUND.name) == "flat" { 1.0 } else { 0.0 }],
     };
-    let texels = (0..height)
-        .flat_map(|j| (0..width).map(move |i| (i, j)))
+    let places = (0..height).flat_map(|j| (0..width).map(move |i| (i, j)));
+    let (texels, heights) = places
+        .map(|(i, j)| look(i, j))
         // Adding 0 turns −0 into 0, so that equal normals have equal bits.
-        .map(|(i, j)| texel(i, j).map(|c| c as f32 + 0.0))
-        .collect();
-    NormalMap::new(width, height, Wrap::Repeat, texels)
+        .map(|seen| (texel(&seen).map(|c| c as f32 + 0.0), seen.map_or(0.0, |seen| seen.height)))
+        .unzip();
+    let normals = NormalMap::new(width, height, Wrap::Repeat, texels);
+    (normals, HeightMap::new(width, height, Wrap::Repeat, heights))
 }
 
 /// Where the centre of texel `i` of `size` stands when the side is cut into `count` equal cells: the

@@ -34,4 +34,9 @@ impl Film {
     pub fn pixels(&self) -> &[f32] {
         &self.pixels
     }
+
+    /// A digest of its pixels: films of one size with the same digest are the same, bit by bit.
+    pub fn digest(&self) -> String {
+        blake3::hash(bytemuck::cast_slice(&self.pixels)).to_hex().to_string()
+    }
 }

@@ -107,7 +107,8 @@ impl Waiting {
         spacing: Option<f64>,
         sums: &mut [f64],
     ) {
-        view.fill(&self.x, &self.y, self.len, spacing, &mut self.batch);
+        let directions = map.needs_directions();
+        view.fill(&self.x, &self.y, self.len, spacing, directions, &mut self.batch);
         map.shade(&self.batch, view.shading, &mut self.radiance);
         let mut start = 0;
         for (column, end) in self.runs.drain(..) {

@@ -11,7 +11,7 @@ use super::Camera;
 
 /// A surface under a light before a camera. What is *on* the surface, the prefiltered map, comes
 /// apart.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct View {
     /// The camera.
     pub camera: Camera,
@@ -31,7 +31,7 @@ impl View {
         let (camera, ray) = (&self.camera, self.camera.ray(x, y));
         let hit = self.surface.intersect(camera.origin(), ray)?;
         let [along_x, along_y] = camera.ray_steps().map(|step| {
-            let moved = displacement(ray, step, hit.t, hit.frame.normal);
+            let moved = displacement(ray, step, hit.t, hit.plane);
             hit.gradient.map(|g| g.dot(&moved) as f32)
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
@@ -39,7 +39,8 @@ impl View {
     }
 
     /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`). With
-    /// `spacing`, the part of a pixel's side that a sample stands for, it fills in footprints too.
+    /// `spacing`, the part of a pixel's side that a sample stands for, it fills in footprints too;
+    /// `directions` to light and eye if asked, or if the shading needs them.
     ///
     /// What differs from batch to batch is decided here, once, and not within the loop.
     pub(super) fn fill(
@@ -48,15 +49,16 @@ impl View {
         y: &[f64; BATCH],
         len: usize,
         spacing: Option<f64>,
+        directions: bool,
         batch: &mut Batch,
     ) {
         batch.len = len;
         let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
-        match (self.shading, spacing) {
-            (Shading::Ndf, None) => points.fill::<false, false>(),
-            (Shading::Ndf, Some(_)) => points.fill::<false, true>(),
-            (Shading::Microfacet, None) => points.fill::<true, false>(),
-            (Shading::Microfacet, Some(_)) => points.fill::<true, true>(),
+        match (directions || self.shading == Shading::Microfacet, spacing) {
+            (false, None) => points.fill::<false, false>(),
+            (false, Some(_)) => points.fill::<false, true>(),
+            (true, None) => points.fill::<true, false>(),
+            (true, Some(_)) => points.fill::<true, true>(),
         }
     }
 }
@@ -72,9 +74,10 @@ struct Points<'a> {
 
 impl Points<'_> {
     fn fill<const DIRECTIONS: bool, const FOOTPRINTS: bool>(self) {
-        match self.view.surface {
-            Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(plane),
-            Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(sphere),
+        match &self.view.surface {
+            Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*plane),
+            Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*sphere),
+            Shape::Drapery(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
         }
     }
 
@@ -130,7 +133,7 @@ where
             }
             if FOOTPRINTS {
                 for (axis, step) in steps.iter().enumerate() {
-                    let moved = displacement(ray, *step, hit.t, frame.normal) * spacing;
+                    let moved = displacement(ray, *step, hit.t, hit.plane) * spacing;
                     for c in 0..2 {
                         batch.jacobian[2 * axis + c][i] = hit.gradient[c].dot(&moved) as f32;
                     }

@@ -59,6 +59,17 @@ impl Canvas {
         self.pixmap.width() / DENSITY as u32
     }
 
+    /// Its height, units.
+    pub fn height(&self) -> u32 {
+        self.pixmap.height() / DENSITY as u32
+    }
+
+    /// Another canvas, dot by dot.
+    pub fn paste(&mut self, corner: Point, other: &Self) {
+        let size = [other.pixmap.width(), other.pixmap.height()].map(|dots| dots as f32 / DENSITY);
+        self.picture(corner, size, &other.dots());
+    }
+
     /// A line through points; `dash` gives the lengths of dash and gap.
     pub fn line(&mut self, points: &[Point], ink: Ink, width: f32, dash: Option<[f32; 2]>) {
         let dash = dash.and_then(|d| StrokeDash::new(d.to_vec(), 0.0));

@@ -126,10 +126,12 @@ pub fn refusals(results: &Results) -> Vec<String> {
 pub fn certainty(comparison: &Comparison) -> String {
     let references = comparison.contests().map(|c| &c.scene.reference);
     let worst = references.clone().map(|r| r.rmse).fold(0.0, f64::max);
-    let spp = unique(references.map(|r| r.spp.to_string()));
+    let spp = unique(references.clone().map(|r| r.spp.to_string()));
+    let shown = unique(references.filter_map(|r| r.truth.meaning()).map(str::to_owned));
+    let show = if shown.is_empty() { String::new() } else { format!(" and show {}", list(&shown)) };
     let ties: Vec<_> = comparison.contests().filter(|c| c.winners().count() > 1).collect();
     let text = format!(
-        "The references used {} samples a pixel; their own RMSE is estimated at {} or less. A lead under \
+        "The references used {} samples a pixel{show}; their own RMSE is estimated at {} or less. A lead under \
          twice the own error of a scene’s reference counts as a tie: {} of {} ended in one",
         list(&spp),
         phrase::number(worst),

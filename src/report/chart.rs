@@ -87,8 +87,8 @@ impl Panel {
     /// Draws a curve with its markers. One that was measured at a single count is carried across,
     /// dashed, if `carried` says so. Errors above the axis stand at its upper edge with their value.
     pub fn curve(&self, canvas: &mut Canvas, curve: &[(f64, f64)], style: Style, carried: bool) {
-        let positive = curve.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
-        let points: Vec<Point> = positive.clone().map(|&(x, y)| self.at(x, y)).collect();
+        let shown = curve.iter().filter(|(x, y)| self.x.shows(*x) && self.y.shows(*y));
+        let points: Vec<Point> = shown.clone().map(|&(x, y)| self.at(x, y)).collect();
         if let ([[_, y]], true) = (points.as_slice(), carried) {
             let line = [points[0], [self.right(), *y]];
             canvas.line(&line, style.ink, 1.1, Some([4.0, 3.0]));
@@ -96,7 +96,7 @@ impl Panel {
         let dash = style.hollow.then_some([6.0, 3.0]);
         canvas.line(&points, style.ink, if style.heavy { 2.8 } else { 1.6 }, dash);
         points.iter().for_each(|point| mark(canvas, *point, style));
-        for ((_, error), [x, y]) in positive.zip(&points).filter(|((_, y), _)| *y > self.y.high) {
+        for ((_, error), [x, y]) in shown.zip(&points).filter(|((_, y), _)| *y > self.y.high) {
             let at = [x + 7.0, y + HALF_CAPITAL * SMALL.size];
             canvas.text(
                 at,

@@ -80,6 +80,12 @@ pub fn styles(methods: &[MethodInfo]) -> Vec<Style> {
     drawn
 }
 
+/// The style of the `i`-th of several series that are no methods.
+pub fn series(i: usize) -> Style {
+    let ink = Ink::new(OKABE_ITO[i % OKABE_ITO.len()]);
+    Style { ink, marker: i, hollow: false, heavy: false }
+}
+
 /// The anchors of viridis (van der Walt and Smith 2015), from 0 to 1.
 const VIRIDIS: [[u8; 3]; 10] = [
     [0x44, 0x01, 0x54],

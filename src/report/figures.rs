@@ -1,52 +1,17 @@
 //! Every figure of a report: its file, its picture and its caption.
 
-use base64::Engine;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::canvas::Canvas;
 use super::contest::{Comparison, Setting, setting_name, unique};
+use super::figure::{Figure, FrameImages, data_uri};
 use super::phrase::{self, count};
 use super::png;
 use super::scale::texels;
-use super::sheet::{self, Frame, Frames};
+use super::sheet::{self, Frames};
 
 use super::{curves, disc};
 use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo, TrialResult};
-
-/// A picture with what it shows.
-#[derive(Serialize)]
-pub struct Figure {
-    /// Its file, relative to the report.
-    file: String,
-    /// What it shows, a sentence or two.
-    caption: String,
-    /// How wide it is shown, CSS pixels.
-    width: u32,
-    /// The picture as a data URI, if the page holds it.
-    uri: Option<String>,
-    #[serde(skip)]
-    png: Vec<u8>,
-}
-
-impl Figure {
-    /// A drawing: a plot or a distribution.
-    fn drawing(file: String, caption: String, drawing: &Canvas) -> Self {
-        let png = png::drawing(&drawing.dots());
-        Self { file, caption, width: drawing.width(), uri: Some(data_uri(&png)), png }
-    }
-
-    /// A contact sheet. The HTML report shows its images one by one, so it needs no URI.
-    fn sheet(file: String, caption: String, drawing: &Canvas) -> Self {
-        let png = png::exact(&drawing.dots());
-        Self { file, caption, width: drawing.width(), uri: None, png }
-    }
-}
-
-/// A PNG file as a URI that holds it.
-fn data_uri(png: &[u8]) -> String {
-    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
-}
 
 /// The figures of a report.
 #[derive(Serialize)]
@@ -90,15 +55,6 @@ struct Films {
 struct FilmFile {
     spp: u32,
     path: String,
-}
-
-/// One image for flipping.
-#[derive(Serialize)]
-struct FrameImages {
-    label: String,
-    remark: String,
-    image: String,
-    error: Option<String>,
 }
 
 impl Figures {
@@ -181,7 +137,7 @@ fn scene_figures(results: &Results, scene: &SceneResult, spp: u32) -> SceneFigur
         heading: format!("{}, {}", scene.key.texture, texels(scene.key.texels_per_pixel)),
         setting: setting_name(&scene.key),
         sheet: sheet_figure(scene, &frames, spp),
-        frames: frames.frames.iter().map(frame_images).collect(),
+        frames: frames.frames.iter().map(FrameImages::of).collect(),
         probes: probes.map(|(i, probe)| probe_figure(results, scene, probe, i + 1)).collect(),
         films: films(scene),
         remark,
@@ -211,15 +167,6 @@ fn films(scene: &SceneResult) -> Vec<Films> {
     std::iter::once(reference).chain(labels.into_iter().map(of_method)).collect()
 }
 
-fn frame_images(frame: &Frame) -> FrameImages {
-    FrameImages {
-        label: frame.label.clone(),
-        remark: frame.remark.clone(),
-        image: data_uri(&png::exact(&frame.image)),
-        error: frame.error.as_ref().map(|picture| data_uri(&png::exact(picture))),
-    }
-}
-
 fn probe_figure(results: &Results, scene: &SceneResult, probe: &Probe, number: usize) -> Figure {
     let [x, y] = probe.pixel;
     let caption = format!(
@@ -228,5 +175,5 @@ fn probe_figure(results: &Results, scene: &SceneResult, probe: &Probe, number: u
         phrase::scale(probe.texels_across),
     );
     let file = format!("plots/{}-normals-{number}.png", scene.slug);
-    Figure::drawing(file, caption, &disc::draw(probe, &results.methods))
+    Figure::drawing(file, caption, &disc::probe(probe, &results.methods))
 }

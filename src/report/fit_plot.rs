@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Canvas, Point, Type};
 use super::chart::{HALF_CAPITAL, SMALL, TEXT};
 use super::colour::{BLACK, GREY, Ink, SHADE, WHITE, magnitude, signed};
-use super::{phrase, png};
+use super::{bar, phrase, png};
 use crate::experiment::results::Picture;
 use crate::fit::{Directions, Distribution, Fit, Peak};
 use crate::geometry::Vec3;
@@ -74,7 +74,7 @@ fn draw(directions: &Directions, distribution: &Distribution, fit: &Fit) -> Canv
     let labels =
         [0.0, 0.25, 0.5, 0.75, 1.0].map(|at: f64| (at as f32, phrase::scale(at * at * largest)));
     let bar = [2.0 * CELL[0] + 8.0, MIDDLE - RADIUS];
-    upright(&mut canvas, bar, magnitude, &labels, "value");
+    key(&mut canvas, bar, magnitude, &labels, "value");
 
     let right = [centre(2)[0] + BAR, MIDDLE];
     let rest: Vec<f64> =
@@ -89,7 +89,7 @@ fn draw(directions: &Directions, distribution: &Distribution, fit: &Fit) -> Canv
     let labels = [-1.0, -0.5, 0.0, 0.5, 1.0]
         .map(|at: f64| (0.5 + 0.5 * at as f32, phrase::scale(at * scale * largest)));
     let bar = [3.0 * CELL[0] + BAR + 8.0, MIDDLE - RADIUS];
-    upright(&mut canvas, bar, |at| signed(2.0 * at - 1.0), &labels, "value − fit");
+    key(&mut canvas, bar, |at| signed(2.0 * at - 1.0), &labels, "value − fit");
     canvas
 }
 
@@ -146,25 +146,15 @@ fn picture(colour: impl Fn(Vec3) -> [u8; 3]) -> Picture {
     Picture { width: PIXELS, height: PIXELS, rgb: (0..PIXELS * PIXELS).map(pixel).collect() }
 }
 
-/// A colour bar as high as a disc, from 0 (bottom) to 1 (top), with labels at some of these.
-fn upright(
+/// A colour bar as high as a disc, with its title.
+fn key(
     canvas: &mut Canvas,
     [x, y]: Point,
     colour: impl Fn(f64) -> [u8; 3],
     labels: &[(f32, String)],
     title: &str,
 ) {
-    const STEPS: usize = 128;
-    let [width, height] = [14.0, 2.0 * RADIUS];
-    let rgb = (0..STEPS).map(|i| colour(1.0 - (i as f64 + 0.5) / STEPS as f64)).collect();
-    canvas.picture([x, y], [width, height], &Picture { width: 1, height: STEPS, rgb });
-    let frame = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]];
-    canvas.outline(&frame, GREY, 1.0);
-    for (share, label) in labels {
-        let at = y + height * (1.0 - share);
-        canvas.line(&[[x + width, at], [x + width + 4.0, at]], GREY, 1.0, None);
-        canvas.text([x + width + 7.0, at + HALF_CAPITAL * SMALL.size], label, SMALL);
-    }
+    bar::upright(canvas, [x, y], [14.0, 2.0 * RADIUS], colour, labels);
     canvas.text([x - 2.0, y - 15.0], title, SMALL);
 }
 

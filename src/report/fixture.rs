@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::experiment::results::*;
 use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
+use crate::method::Truth;
 use crate::render::Film;
 
 const SIDE: usize = 72;
@@ -104,7 +105,7 @@ fn scene(t: usize, texture: &str, scale: f64) -> SceneResult {
     SceneResult {
         key: key(texture, scale),
         slug: format!("{texture}-{scale}"),
-        reference: Reference { film, spp: 4096, rmse: 0.0004 },
+        reference: Reference { film, spp: 4096, rmse: 0.0004, truth: Truth::Bumps },
         trials: trials.collect(),
         refusals: METHODS.iter().filter(|m| refused(m.0)).map(|m| refusal(m.0)).collect(),
         probes: if scale == 16.0 && t == 0 { vec![probe()] } else { vec![] },

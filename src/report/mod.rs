@@ -7,9 +7,12 @@
 //! | `metrics.csv`, `metrics.json` | one row a trial and metric | yes |
 //! | `plots/*.png`, `images/*.png` | what the reports show | yes |
 //! | `costs.csv`, `costs.md` | times and memory | no |
+//!
+//! [`write_evidence`] does the same for what was found about a paper.
 
 mod answer;
 mod axis;
+mod bar;
 mod canvas;
 mod caveats;
 mod chart;
@@ -19,19 +22,24 @@ mod contest;
 mod costs;
 mod curves;
 mod disc;
+mod evidence;
+mod figure;
 mod figures;
 mod files;
 mod fit_plot;
 mod font;
 mod grid;
+mod lobe_sheet;
 mod mark;
 mod page;
 mod phrase;
 mod png;
+mod polar;
 mod ranking;
 mod scale;
 mod sheet;
 mod tables;
+mod template;
 mod tidy;
 mod tone;
 mod words;
@@ -41,8 +49,10 @@ mod fixture;
 
 use std::path::{Path, PathBuf};
 
+pub use evidence::write_evidence;
 pub use files::ReportError;
 pub use fit_plot::fit_plot;
+pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};
 

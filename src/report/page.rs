@@ -1,8 +1,7 @@
 //! What a report shows, in the order it shows it; the templates turn it into Markdown and HTML.
 
-use minijinja::syntax::SyntaxConfig;
+use minijinja::context;
 use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment, context};
 use serde::Serialize;
 
 use super::answer::answer;
@@ -10,6 +9,7 @@ use super::contest::{Comparison, unique};
 use super::figures::Figures;
 use super::ranking;
 use super::tables::{self, Table};
+use super::template::render;
 use super::words;
 use crate::experiment::results::{Costs, MethodInfo, Results, TextureInfo};
 
@@ -117,51 +117,6 @@ pub fn costs(title: &str, intro: &str, tables: &[Table]) -> String {
     render("costs.md", context! { title, intro, tables => Serde(tables) })
 }
 
-fn render(template: &str, context: minijinja::Value) -> String {
-    let environment = environment();
-    let found = environment.get_template(template).expect("the template is compiled in");
-    found.render(context).expect("templates use only what they are given; tests render each")
-}
-
-fn environment() -> Environment<'static> {
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|name| {
-        if name.ends_with(".html") { AutoEscape::Html } else { AutoEscape::None }
-    });
-    let mut syntax = SyntaxConfig::builder();
-    syntax.trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true);
-    environment.set_syntax(syntax.build().expect("only the handling of whitespace is changed"));
-    environment.add_filter("plain", plain);
-    for (name, source) in [
-        ("table.md", include_str!("templates/table.md")),
-        ("report.md", include_str!("templates/report.md")),
-        ("report.html", include_str!("templates/report.html")),
-        ("style.css", include_str!("templates/style.css")),
-        ("script.js", include_str!("templates/script.js")),
-        ("costs.md", include_str!("templates/costs.md")),
-    ] {
-        environment
-            .add_template(name, source)
-            .expect("the template is compiled in; tests parse it");
-    }
-    environment
-}
-
-/// Text that Markdown takes as it stands: nothing in it is markup, and it stays on one line.
-fn plain(text: String) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '\\' | '|' | '*' | '`' | '[' | ']' | '#' | '_' => out.extend(['\\', c]),
-            '<' => out.push_str("&lt;"),
-            '&' => out.push_str("&amp;"),
-            '\n' | '\r' => out.push(' '),
-            _ => out.push(c),
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -175,11 +130,6 @@ mod tests {
             &fixture::costs(),
             &Figures::of(&results)
         )));
-    }
-
-    #[test]
-    fn names_are_never_markup() {
-        assert_eq!(plain("a|b <script>\n*x*".into()), "a\\|b &lt;script> \\*x\\*");
     }
 
     #[test]

@@ -29,6 +29,11 @@ pub fn scale(value: f64) -> String {
     text
 }
 
+/// The same with a proper minus sign.
+pub fn signed_scale(value: f64) -> String {
+    scale(value).replace('-', "−")
+}
+
 /// A factor, to two digits: `1.8`, `18`.
 pub fn times(value: f64) -> String {
     if value < 9.95 {

@@ -22,6 +22,11 @@ pub const DISTRIBUTIONS: &str = "A distribution of normals is shown on the hemis
     is yellow. Rings mark the axes of lobes. The distance is ½ ∫ |D − D_true| cos θ dω: 0 for equal distributions, 1 for \
     disjoint ones, more where energy is not kept.";
 
+/// The same for distributions with no true one among them.
+pub const DISTRIBUTIONS_ALONE: &str = "Distributions of normals on the hemisphere seen from above, x to the right, y up. \
+    Colour is the square root of density; differences, which may be negative, are blue below 0 and orange above, in \
+    proportion. Rings mark peaks; those below the horizon stand at the edge.";
+
 /// What a metric of `metrics.csv` is: its meaning and formula, with its constants.
 pub fn metric_formula(name: &str) -> Option<String> {
     if name == "ndf_l1" {

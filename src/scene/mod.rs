@@ -13,12 +13,14 @@
 mod measure;
 mod prefilter;
 mod reference;
+mod shelf;
 mod texture;
 mod trial;
 
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
 pub use prefilter::{BuildCost, Prefilter, PrefilterOf, Strategy};
 pub use reference::ReferenceImage;
+pub use shelf::Shelf;
 pub use texture::{BumpSource, LoadError, Map, Texture};
 pub use trial::{Exposure, Spp, StagedScene, TrialOf, stage};
 
@@ -31,6 +33,7 @@ use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, SingleThreadedExecutor
 
 use crate::light::Light;
 use crate::lobe::{BaseLobe, Shading};
+use crate::method::Truth;
 use crate::render::Camera;
 use crate::surface::Shape;
 
@@ -59,7 +62,7 @@ pub struct Material {
 }
 
 /// The form of a surface, not yet tiled.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Debug)]
 pub struct SurfaceShape(pub Shape);
 
 /// A camera, placed.
@@ -103,6 +106,8 @@ pub struct ReferencePlan {
     pub spp: u32,
     /// Independent replicates, at least 2.
     pub replicates: u32,
+    /// What it shows of the bumps.
+    pub truth: Truth,
 }
 
 /// Image points (pixels) whose footprints' distributions are looked at.
@@ -155,6 +160,16 @@ pub enum Progress {
     Prefiltered {
         /// The prefilter.
         prefilter: Entity,
+    },
+    /// A map that an earlier run had prefiltered was taken from the [`Shelf`].
+    Reloaded {
+        /// The prefilter.
+        prefilter: Entity,
+    },
+    /// Something that whoever waits should know, in a sentence.
+    Noted {
+        /// The sentence.
+        text: String,
     },
     /// The reference has converged by another replicate.
     Converged {

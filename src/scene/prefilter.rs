@@ -1,12 +1,16 @@
 //! Strategies, and the maps they make ready.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 
+use super::shelf::{Kept, Shelf};
 use super::{Current, Halt, Map, Material, Progress, SceneOf, Stage, Watch};
-use crate::method::{self, Method, PrefilterError, Prefiltered, Refusal};
+use crate::lobe::BaseLobe;
+use crate::method::{self, Damaged, Method, PrefilterError, Prefiltered, Refusal};
+use crate::texture::NormalMap;
 
 /// A filter strategy: a method with its options. Its label in the experiment is its [`Name`].
 #[derive(Component)]
@@ -27,7 +31,7 @@ pub struct PrefilterOf {
 #[derive(Component, Clone)]
 pub struct Prefilter(pub Result<Arc<dyn Prefiltered>, Refusal>);
 
-/// What building it took.
+/// What building it took, in this run or in the one that put it on the [`Shelf`].
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct BuildCost {
     /// Wall-clock seconds.
@@ -37,17 +41,18 @@ pub struct BuildCost {
 }
 
 pub(super) fn plugin(schedule: &mut Schedule) {
-    schedule.add_systems(build.in_set(Stage::Prefilter));
+    schedule.add_systems(prepare.in_set(Stage::Prefilter));
 }
 
-/// Builds one prefilter of the current scene that is still missing.
+/// Builds one prefilter of the current scene that is still missing, or takes it from the shelf.
 #[allow(clippy::type_complexity)]
-fn build(
+fn prepare(
     mut commands: Commands,
     current: Res<Current>,
-    (halt, watch): (Res<Halt>, Res<Watch>),
+    (halt, watch, shelf): (Res<Halt>, Res<Watch>, Option<Res<Shelf>>),
     scenes: Query<&SceneOf>,
     (maps, strategies, materials): (Query<&Map>, Query<&Strategy>, Query<&Material>),
+    names: Query<&Name>,
     pending: Query<(Entity, &PrefilterOf), Without<Prefilter>>,
     mut progress: MessageWriter<Progress>,
 ) {
@@ -56,22 +61,94 @@ fn build(
     let wanted = |of: &PrefilterOf| of.texture == scene.texture && of.material == scene.material;
     // The smallest entity: query order is not promised.
     let next = pending.iter().filter(|(_, of)| wanted(of)).min_by_key(|(entity, _)| *entity);
-    let Some((entity, of)) = next else { return };
+    let Some((prefilter, of)) = next else { return };
     let (Ok(strategy), Ok(material)) = (strategies.get(of.strategy), materials.get(of.material))
     else {
         return;
     };
-    let start = Instant::now();
-    let onlooker = Onlooker { halt: &halt, watch: &watch };
-    let built = match strategy.0.prefilter(&map.normals, &material.base, &onlooker) {
-        Ok(prefiltered) => Ok(Arc::from(prefiltered)),
-        Err(PrefilterError::Refused(refusal)) => Err(refusal),
-        Err(PrefilterError::Cancelled) => return,
-    };
-    let secs = start.elapsed().as_secs_f64();
-    let bytes = built.as_ref().map_or(0, |p: &Arc<dyn Prefiltered>| p.bytes());
-    commands.entity(entity).insert((Prefilter(built), BuildCost { secs, bytes }));
-    progress.write(Progress::Prefiltered { prefilter: entity });
+    let name = |entity| names.get(entity).map_or("", Name::as_str);
+    let order = Order { map: &map.normals, method: &*strategy.0, base: &material.base };
+    let place = shelf.as_deref().map(|shelf| {
+        let lobe = format!("{}-{}", order.base.name(), order.base.parameter());
+        let path = shelf.path(&format!("{}-{}-{lobe}", name(of.texture), name(of.strategy)));
+        Place { shelf, path }
+    });
+    let mut note = |text| progress.write(Progress::Noted { text });
+    let reloaded = place.as_ref().and_then(|place| {
+        place.reload(&order).unwrap_or_else(|damaged| {
+            let path = place.path.display();
+            note(format!("{path} is not usable ({damaged}); it is built again and replaced"));
+            None
+        })
+    });
+    if let Some((prefiltered, cost)) = reloaded {
+        commands.entity(prefilter).insert((Prefilter(Ok(prefiltered)), cost));
+        progress.write(Progress::Reloaded { prefilter });
+        return;
+    }
+    let Some((built, cost)) = order.build(&Onlooker { halt: &halt, watch: &watch }) else { return };
+    if let (Some(place), Ok(prefiltered)) = (&place, &built)
+        && let Err(error) = place.keep(&order, prefiltered.as_ref(), cost.secs)
+    {
+        let path = place.path.display();
+        note(format!("cannot keep {path}: {error}; the next run builds it again"));
+    }
+    commands.entity(prefilter).insert((Prefilter(built), cost));
+    progress.write(Progress::Prefiltered { prefilter });
+}
+
+/// What is to be prefiltered, how, and for which lobe.
+struct Order<'a> {
+    map: &'a Arc<NormalMap>,
+    method: &'a dyn Method,
+    base: &'a BaseLobe,
+}
+
+impl Order<'_> {
+    /// Builds it; `None` if it was halted.
+    fn build(
+        &self,
+        onlooker: &Onlooker,
+    ) -> Option<(Result<Arc<dyn Prefiltered>, Refusal>, BuildCost)> {
+        let start = Instant::now();
+        let built: Result<Arc<dyn Prefiltered>, Refusal> =
+            match self.method.prefilter(self.map, self.base, onlooker) {
+                Ok(prefiltered) => Ok(Arc::from(prefiltered)),
+                Err(PrefilterError::Refused(refusal)) => Err(refusal),
+                Err(PrefilterError::Cancelled) => return None,
+            };
+        let secs = start.elapsed().as_secs_f64();
+        let bytes = built.as_ref().map_or(0, |prefiltered| prefiltered.bytes());
+        Some((built, BuildCost { secs, bytes }))
+    }
+}
+
+/// Where a prefilter stands on the shelf.
+struct Place<'a> {
+    shelf: &'a Shelf,
+    path: PathBuf,
+}
+
+impl Place<'_> {
+    /// The prefilter and what building it took, if it stands there.
+    fn reload(&self, order: &Order) -> Result<Option<(Arc<dyn Prefiltered>, BuildCost)>, Damaged> {
+        // Most methods keep nothing: spare them the digest of the map.
+        if !self.path.exists() {
+            return Ok(None);
+        }
+        let key = self.shelf.key(order.map, order.method, order.base);
+        let Some(kept) = self.shelf.find(&self.path, &key)? else { return Ok(None) };
+        let restored = order.method.restore(order.map, order.base, &kept.bytes)?;
+        let cost = BuildCost { secs: kept.secs, bytes: restored.bytes() };
+        Ok(Some((Arc::from(restored), cost)))
+    }
+
+    /// Puts a prefilter there, if it is of a kind that is kept.
+    fn keep(&self, order: &Order, built: &dyn Prefiltered, secs: f64) -> std::io::Result<()> {
+        let Some(bytes) = built.store() else { return Ok(()) };
+        let key = self.shelf.key(order.map, order.method, order.base);
+        self.shelf.keep(&self.path, &key, &Kept { bytes, secs })
+    }
 }
 
 /// Hears how far a prefilter is, and lets it see that it should stop.

@@ -73,7 +73,7 @@ impl SceneView<'_, '_> {
         let material = *self.materials.get(of.material).ok()?;
         let untiled = View {
             camera: self.cameras.get(of.camera).ok()?.camera,
-            surface: self.surfaces.get(of.surface).ok()?.0,
+            surface: self.surfaces.get(of.surface).ok()?.0.clone(),
             light: self.lights.get(of.light).ok()?.0,
             shading: material.shading,
             wrap: map.wrap(),
@@ -88,7 +88,7 @@ pub(super) fn tiled(view: View, tiling: Tiling, map: &NormalMap) -> View {
     let tiles = match tiling {
         Tiling::Tiles(tiles) => tiles,
         Tiling::TexelsPerPixel(wanted) => {
-            let one = View { surface: view.surface.tiled(1.0, aspect), ..view };
+            let one = View { surface: view.surface.tiled(1.0, aspect), ..view.clone() };
             let across = texels_across_centre(&one, map).unwrap_or(wanted);
             // A sphere rounds its tiling: compare with what one tile a unit came out as.
             wanted / across * one.surface.tiles_across()

@@ -3,9 +3,13 @@
 //! A surface answers, for a ray, where it is hit, the texture coordinates there, how they change over
 //! the surface, and the tangent frame.
 
+mod drapery;
+mod mesh;
 mod plane;
 mod sphere;
 
+pub use drapery::drapery;
+pub use mesh::{Mesh, Vertex};
 pub use plane::Plane;
 pub use sphere::Sphere;
 
@@ -20,14 +24,25 @@ pub struct Hit {
     pub point: Vec3,
     /// Tangent, bitangent, normal; world space.
     pub frame: Frame,
+    /// Unit normal of the surface's own tangent plane, which [`Hit::frame`] may smooth; world space.
+    pub plane: Vec3,
     /// Texture coordinates (u, v); one unit is one tile of the map.
     pub uv: [f64; 2],
     /// ∇u and ∇v: how u and v change with a step in the tangent plane, per scene unit, world space.
     pub gradient: [Vec3; 2],
 }
 
+impl Hit {
+    /// The numbers of a ray that hits nothing: finite and of no meaning.
+    pub fn nowhere() -> Self {
+        let (point, plane) = (Vec3::zeros(), Vec3::z());
+        let frame = Frame { tangent: Vec3::x(), bitangent: Vec3::y(), normal: Vec3::z() };
+        Self { t: 1.0, point, frame, plane, uv: [0.0; 2], gradient: [Vec3::x(), Vec3::y()] }
+    }
+}
+
 /// A surface with texture coordinates.
-pub trait Surface: Copy + Send + Sync + std::fmt::Debug {
+pub trait Surface: Clone + Send + Sync + std::fmt::Debug {
     /// The first hit at t > 0 of the ray `origin` + t·`direction` (any length), seen from outside, and
     /// whether there is one; if not, the hit holds numbers of no meaning. Without a branch, so that a
     /// loop over rays can become vector code.
@@ -49,12 +64,14 @@ pub trait Surface: Copy + Send + Sync + std::fmt::Debug {
 }
 
 /// Any surface. The renderer chooses once a batch, so that its inner loop knows the kind.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// The tiled plane.
     Plane(Plane),
     /// The sphere.
     Sphere(Sphere),
+    /// The hanging cloth.
+    Drapery(Mesh),
 }
 
 impl Shape {
@@ -63,6 +80,7 @@ impl Shape {
         match self {
             Self::Plane(_) => "plane",
             Self::Sphere(_) => "sphere",
+            Self::Drapery(_) => "drapery",
         }
     }
 
@@ -71,6 +89,7 @@ impl Shape {
         match self {
             Self::Plane(plane) => plane.intersect(origin, direction),
             Self::Sphere(sphere) => sphere.intersect(origin, direction),
+            Self::Drapery(mesh) => mesh.intersect(origin, direction),
         }
     }
 
@@ -79,6 +98,7 @@ impl Shape {
         match self {
             Self::Plane(plane) => Self::Plane(plane.tiled(tiles, aspect)),
             Self::Sphere(sphere) => Self::Sphere(sphere.tiled(tiles, aspect)),
+            Self::Drapery(mesh) => Self::Drapery(mesh.tiled(tiles, aspect)),
         }
     }
 
@@ -87,6 +107,7 @@ impl Shape {
         match self {
             Self::Plane(plane) => plane.tiles_across(),
             Self::Sphere(sphere) => sphere.tiles_across(),
+            Self::Drapery(mesh) => mesh.tiles_across(),
         }
     }
 }

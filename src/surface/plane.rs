@@ -34,6 +34,7 @@ impl Surface for Plane {
             t,
             point,
             frame: Frame { tangent: Vec3::x(), bitangent: Vec3::y(), normal: Vec3::z() },
+            plane: Vec3::z(),
             uv: [point.x * across, point.y * along],
             gradient: [Vec3::x() * across, Vec3::y() * along],
         };

@@ -64,6 +64,7 @@ impl Surface for Sphere {
             t,
             point,
             frame,
+            plane: frame.normal,
             uv: [longitude * round, (latitude + FRAC_PI_2) * up],
             gradient: [frame.tangent * (round / radius.max(SMALLEST_RADIUS)), frame.bitangent * up],
         };

@@ -14,12 +14,13 @@ pub struct HeightMap {
 }
 
 impl HeightMap {
-    /// A table of `width · height` finite values, row by row from v = 0.
+    /// A table of `width · height` values, row by row from v = 0; what is not finite becomes 0.
     ///
     /// # Panics
     /// If a side is 0 or the number of values is not `width · height`.
-    pub fn new(width: usize, height: usize, wrap: Wrap, values: Vec<f64>) -> Self {
+    pub fn new(width: usize, height: usize, wrap: Wrap, mut values: Vec<f64>) -> Self {
         assert!(width > 0 && height > 0 && values.len() == width * height, "shape of a height map");
+        values.iter_mut().filter(|value| !value.is_finite()).for_each(|value| *value = 0.0);
         Self { width, height, wrap, values }
     }
 
@@ -64,6 +65,29 @@ impl HeightMap {
         self.values[j * self.width + i]
     }
 
+    /// The table turned by 90° counter-clockwise about its centre.
+    pub fn rotated(&self) -> Self {
+        let (width, height) = (self.height, self.width);
+        let mut values = vec![0.0; width * height];
+        for (k, &value) in self.values.iter().enumerate() {
+            let (i, j) = (k % self.width, k / self.width);
+            values[i * width + (width - 1 - j)] = value;
+        }
+        Self { width, height, wrap: self.wrap, values }
+    }
+
+    /// The table with all heights multiplied by `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let values = self.values.iter().map(|value| value * factor).collect();
+        Self::new(self.width, self.height, self.wrap, values)
+    }
+
+    /// The least and the greatest value.
+    pub fn range(&self) -> [f64; 2] {
+        let widen = |[low, high]: [f64; 2], &x: &f64| [low.min(x), high.max(x)];
+        self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], widen)
+    }
+
     /// [∂F/∂x, ∂F/∂y] at entry (i, j) in height units per texel, by central differences over one
     /// texel either side: (F(i+1) − F(i−1)) / 2 (Blinn 1978 §3 with E = one cell). At a clamped edge
     /// the difference is one-sided, over one texel.
@@ -81,6 +105,7 @@ impl HeightMap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::NormalMap;
 
     #[test]
     fn gradients_of_a_slope() {
@@ -89,6 +114,21 @@ mod tests {
             let [x, y] = map.gradient(i, j);
             assert!((x - 3.0).abs() < 1e-12 && (y + 1.0).abs() < 1e-12, "{i},{j}: {x} {y}");
         }
+    }
+
+    #[test]
+    fn what_is_not_finite_becomes_flat() {
+        let bad = vec![f64::NAN, 2.0, f64::INFINITY, -f64::INFINITY];
+        let map = HeightMap::new(2, 2, Wrap::Repeat, bad);
+        assert_eq!(map.values(), [0.0, 2.0, 0.0, 0.0]);
+        assert_eq!(map.range(), [0.0, 2.0]);
+    }
+
+    #[test]
+    fn turned_heights_are_of_the_turned_normals() {
+        let map = HeightMap::from_fn(7, 4, Wrap::Repeat, |u, v| (9.0 * u).sin() + v * v);
+        let normals = NormalMap::from_heights(&map, 1.0);
+        assert_eq!(NormalMap::from_heights(&map.rotated(), 1.0), normals.rotated());
     }
 
     #[test]

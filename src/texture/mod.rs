@@ -2,13 +2,19 @@
 
 mod footprint;
 mod height_map;
+mod horizon;
 pub mod image_file;
+mod integrate;
 mod normal_map;
 mod pyramid;
+mod relief;
 mod wrap;
 
 pub use footprint::Footprint;
 pub use height_map::HeightMap;
+pub use horizon::{HorizonMap, SIDES};
+pub use integrate::{Integrated, Residual, integrate};
 pub use normal_map::{Interpolation, MIN_COSINE, NormalMap, Texel};
 pub use pyramid::{Moments, Pyramid, downsample, level_sizes, tap_weights};
+pub use relief::Relief;
 pub use wrap::{Taps, Wrap};

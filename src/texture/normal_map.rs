@@ -1,5 +1,7 @@
 //! Normal maps.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::{HeightMap, Taps, Wrap};
@@ -40,6 +42,7 @@ pub struct NormalMap {
     wrap: Wrap,
     interpolation: Interpolation,
     texels: Vec<Texel>,
+    heights: Option<Arc<HeightMap>>,
 }
 
 impl NormalMap {
@@ -53,7 +56,8 @@ impl NormalMap {
     pub fn new(width: usize, height: usize, wrap: Wrap, mut texels: Vec<Texel>) -> Self {
         assert!(width > 0 && height > 0 && texels.len() == width * height, "shape of a normal map");
         texels.iter_mut().for_each(|t| *t = unit(*t));
-        Self { width, height, wrap, interpolation: Interpolation::default(), texels }
+        let interpolation = Interpolation::default();
+        Self { width, height, wrap, interpolation, texels, heights: None }
     }
 
     /// A map of `width` × `height` texels whose normal at texel centre (u, v) is `f(u, v)` =
@@ -93,6 +97,36 @@ impl NormalMap {
     pub fn with_interpolation(mut self, interpolation: Interpolation) -> Self {
         self.interpolation = interpolation;
         self
+    }
+
+    /// The same map, with the heights that its normals are of: texel sides, of the same size and wrap.
+    /// What is masked or in shadow can only be told from them.
+    ///
+    /// # Panics
+    /// If the sizes differ: a programming error.
+    pub fn with_heights(mut self, heights: Arc<HeightMap>) -> Self {
+        let sizes = [(self.width, self.height), (heights.width(), heights.height())];
+        assert_eq!(sizes[0], sizes[1], "heights of a normal map");
+        self.heights = Some(heights);
+        self
+    }
+
+    /// The heights that its normals are of, where they are known.
+    pub fn heights(&self) -> Option<&Arc<HeightMap>> {
+        self.heights.as_ref()
+    }
+
+    /// The heights that its normals are of, or else those that come nearest (see
+    /// [`integrate`](super::integrate())).
+    pub fn heights_or_integrated(&self) -> Arc<HeightMap> {
+        let integrated = || Arc::new(super::integrate(self).heights);
+        self.heights.clone().unwrap_or_else(integrated)
+    }
+
+    /// [∂F/∂x, ∂F/∂y] of the surface whose normal texel (i, j) is; z is held at [`MIN_COSINE`].
+    pub fn slope(&self, i: usize, j: usize) -> [f64; 2] {
+        let [x, y, z, _] = self.texel(i, j);
+        [x, y].map(|c| f64::from(-c) / f64::from(z.max(MIN_COSINE)))
     }
 
     /// Texels along u.
@@ -200,7 +234,7 @@ impl NormalMap {
         self.texels.iter().filter(|t| t[2] < MIN_COSINE && t[3] > 0.0).count()
     }
 
-    /// The map turned by 90° counter-clockwise about its centre: normals and positions alike.
+    /// The map turned by 90° counter-clockwise about its centre: normals, heights and positions alike.
     pub fn rotated(&self) -> Self {
         let (width, height) = (self.height, self.width);
         let mut texels = vec![[0.0; 4]; width * height];
@@ -208,13 +242,15 @@ impl NormalMap {
             let (i, j) = (k % self.width, k / self.width);
             texels[i * width + (width - 1 - j)] = [-y, x, z, w];
         }
-        Self { width, height, wrap: self.wrap, interpolation: self.interpolation, texels }
+        let heights = self.heights.as_ref().map(|heights| Arc::new(heights.rotated()));
+        Self { width, height, wrap: self.wrap, interpolation: self.interpolation, texels, heights }
     }
 
     /// The map with every slope multiplied by `factor` (its bumps that much higher).
     pub fn scaled(&self, factor: f32) -> Self {
         let scale = |&[x, y, z, w]: &Texel| unit([x * factor, y * factor, z, w]);
-        Self { texels: self.texels.iter().map(scale).collect(), ..self.clone() }
+        let heights = self.heights.as_ref().map(|h| Arc::new(h.scaled(factor.into())));
+        Self { texels: self.texels.iter().map(scale).collect(), heights, ..self.clone() }
     }
 }
 

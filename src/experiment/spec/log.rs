@@ -55,6 +55,8 @@ impl<'a> Log<'a> {
     pub fn check(&self) -> Result<(), SpecErrors> {
         let mut errors = self.errors.borrow().clone();
         errors.sort_by_key(|e| (e.span.start, e.span.end));
+        // What is common to several parts is read with each.
+        errors.dedup();
         if errors.is_empty() { Ok(()) } else { Err(SpecErrors::Invalid(errors)) }
     }
 

@@ -3,6 +3,7 @@
 use super::catalogue::Catalogue;
 use super::reader::Reader;
 use super::values::read_values;
+use crate::method::{self, Method};
 use crate::parameter::Values;
 
 /// A method of the sweep.
@@ -17,6 +18,15 @@ pub struct MethodSpec {
 }
 
 impl MethodSpec {
+    /// The method with these options.
+    ///
+    /// # Panics
+    /// If the name is not in the registry: a spec that was read names what is.
+    pub fn build(&self) -> Box<dyn Method> {
+        let entry = method::find(self.name).expect("the spec names registered methods");
+        (entry.build)(&self.values)
+    }
+
     /// A method with its defaults, labelled with its name.
     pub(super) fn plain(catalogue: &Catalogue, method: &str) -> Option<Self> {
         let entry = catalogue.method(method)?;

@@ -11,6 +11,9 @@ mod limits;
 mod log;
 mod material;
 mod method;
+mod paper;
+#[cfg(test)]
+mod paper_tests;
 mod reader;
 mod reference;
 mod scene;
@@ -24,10 +27,12 @@ mod tests;
 
 use std::path::Path;
 
+use toml::Spanned;
 use toml::de::DeTable;
 
 pub use error::{SpecError, SpecErrors};
 pub use method::MethodSpec;
+pub use paper::{Experiment, PaperKeys, PaperSpec, RowKeys, RowSpec};
 pub use reference::ReferenceSpec;
 pub use scene::{CameraSpec, ImageSpec, LightSpec, Shape};
 pub(crate) use suggest::no_such;
@@ -35,6 +40,7 @@ pub use sweep::{Scale, SweepSpec};
 pub use texture::{Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
+use crate::method::Truth;
 use catalogue::Catalogue;
 use limits::Limits;
 use log::Log;
@@ -73,6 +79,12 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// Whether something in it looks at the heights of textures: its truth, or a method.
+    pub fn needs_heights(&self) -> bool {
+        self.reference.truth != Truth::Bumps
+            || self.sweep.methods.iter().any(|method| method.build().needs_heights())
+    }
+
     /// Reads the experiment in a file.
     ///
     /// # Errors
@@ -94,32 +106,40 @@ impl Spec {
 
     /// Reads an experiment that may name what the catalogue holds.
     fn parse_with(catalogue: &Catalogue, log: &Log, text: &str) -> Result<Self, SpecErrors> {
+        let document = Self::document(log, text)?;
+        let title = ("the experiment".to_owned(), "The experiment");
+        let spec = Reader::read(log, title, log.end(), Some(document.get_ref()), |root| {
+            let name = log.path().file_stem().unwrap_or_default().to_string_lossy();
+            read_spec(root, catalogue, &name, text)
+        });
+        log.check()?;
+        Ok(spec)
+    }
+
+    /// The tables of a text. What is no TOML is all that is said of such a file: what could not be
+    /// parsed would seem to be missing.
+    fn document<'t>(log: &Log, text: &'t str) -> Result<Spanned<DeTable<'t>>, SpecErrors> {
         let (document, syntax_errors) = DeTable::parse_recoverable(text);
         for error in &syntax_errors {
             let span = error.span().unwrap_or_else(|| log.end());
             log.error(span, format!("not TOML: {}", error.message()), None);
         }
-        // What could not be parsed would seem to be missing, so no more is said of such a file.
         log.check()?;
-        let title = ("the experiment".to_owned(), "The experiment");
-        let spec = Reader::read(log, title, log.end(), Some(document.get_ref()), |root| {
-            read_spec(root, catalogue, text)
-        });
-        log.check()?;
-        Ok(spec)
+        Ok(document)
     }
 }
 
 /// Reads everything; the spec means something only if nothing was logged.
-fn read_spec(root: &Reader, catalogue: &Catalogue, text: &str) -> Spec {
-    let name = root.log().path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
+fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Spec {
+    let name = name.to_owned();
     let text_at = |key| root.item(key).and_then(|item| item.text()).map(str::to_owned);
     let title = text_at("title").unwrap_or_else(|| name.clone());
     let question = text_at("question").unwrap_or_default();
     let seed = root.whole("seed", 1, 0, i64::MAX as u64);
     let image = root.section("image", "[image]", ImageSpec::read);
     let (surface, tiles) = root.section("surface", "[surface]", |reader| {
-        let shapes = [("plane", Shape::Plane), ("sphere", Shape::Sphere)];
+        let shapes =
+            [("plane", Shape::Plane), ("sphere", Shape::Sphere), ("drapery", Shape::Drapery)];
         let tiles = reader.item("tiles");
         let limits = Limits::above(0.0, 1e6);
         (reader.choice("shape", &shapes), tiles.and_then(|t| Some((t.clone(), t.real(limits)?))))

@@ -1,6 +1,7 @@
 //! The reference: the supersampled image that every other is held to.
 
 use super::reader::Reader;
+use crate::method::Truth;
 
 /// How the reference is rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +10,8 @@ pub struct ReferenceSpec {
     pub spp: u32,
     /// Independent parts of equal size it is the mean of, a power of two; their spread tells its error.
     pub replicates: u32,
+    /// What it shows of the bumps.
+    pub truth: Truth,
 }
 
 impl ReferenceSpec {
@@ -16,6 +19,7 @@ impl ReferenceSpec {
         let spp = reader.item("spp").and_then(|item| item.power_of_two(2, 1 << 20)).unwrap_or(4096);
         // A power of two no greater than another divides it.
         let replicates = reader.item("replicates").and_then(|item| item.power_of_two(2, spp));
-        Self { spp, replicates: replicates.unwrap_or(4.min(spp)) }
+        let truth = reader.choice("truth", &Truth::ALL.map(|truth| (truth.name(), truth)));
+        Self { spp, replicates: replicates.unwrap_or(4.min(spp)), truth }
     }
 }

@@ -26,6 +26,8 @@ pub enum Shape {
     Plane,
     /// The sphere of radius 1 about the origin.
     Sphere,
+    /// A cloth that hangs in folds about the origin and faces −y.
+    Drapery,
 }
 
 impl Shape {
@@ -34,6 +36,7 @@ impl Shape {
         match self {
             Self::Plane => "plane",
             Self::Sphere => "sphere",
+            Self::Drapery => "drapery",
         }
     }
 }
@@ -58,7 +61,7 @@ impl CameraSpec {
     pub(super) fn read(reader: &Reader, shape: Shape) -> Self {
         let elevation = match shape {
             Shape::Plane => Limits::above(0.0, 90.0).degrees(),
-            Shape::Sphere => Limits::between(-90.0, 90.0).degrees(),
+            Shape::Sphere | Shape::Drapery => Limits::between(-90.0, 90.0).degrees(),
         };
         Self {
             elevation: reader.real("elevation", 40.0, elevation),
@@ -74,6 +77,7 @@ pub(super) fn distance_limits(shape: Shape) -> Limits {
     match shape {
         Shape::Plane => Limits::above(0.0, 1e6),
         Shape::Sphere => Limits::above(1.0, 1e6),
+        Shape::Drapery => Limits::above(2.0, 1e6),
     }
 }
 
@@ -121,7 +125,7 @@ impl LightSpec {
         } else {
             let elevation = match shape {
                 Shape::Plane => Limits::above(0.0, 90.0),
-                Shape::Sphere => Limits::from_to(-90.0, 90.0),
+                Shape::Sphere | Shape::Drapery => Limits::from_to(-90.0, 90.0),
             };
             Self::Directional {
                 elevation: reader.real("elevation", 40.0, elevation.degrees()),

@@ -1,44 +1,60 @@
 //! Looking up and shading a pyramid of peaks.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use super::MOST_PEAKS;
 use super::pyramid::Level;
+use super::{MOST_PEAKS, stored};
 use crate::lobe::BaseLobe;
+use crate::lobe::vector::V3;
 use crate::lobe::{MultipleSurface, PhongPeak, Shading, Spread};
 use crate::method::one_lobe::{filtered_share, unfiltered_lobe};
 use crate::method::{Batch, Lane, Prefiltered};
 use crate::texture::{Footprint, NormalMap, Taps};
 
 /// A level as it is looked up: the peaks of all cells in one list.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct StoredLevel {
-    width: usize,
-    height: usize,
+    pub width: usize,
+    pub height: usize,
     /// Where each cell's peaks begin, and the end.
-    starts: Vec<u32>,
-    peaks: Vec<PhongPeak>,
+    pub starts: Vec<u32>,
+    pub peaks: Vec<PhongPeak>,
 }
 
 impl StoredLevel {
     pub(super) fn new(level: &Level) -> Self {
         let mut starts = vec![0];
         let mut peaks = Vec::new();
-        for fit in &level.cells {
-            peaks.extend(fit.peaks.iter().map(|p| PhongPeak {
-                amplitude: p.amplitude as f32,
-                direction: [p.direction.x, p.direction.y, p.direction.z].map(|c| c as f32),
-                exponent: p.exponent as f32,
-            }));
+        for cell in &level.cells {
+            peaks.extend(&cell.peaks);
             starts.push(peaks.len() as u32);
         }
         peaks.shrink_to_fit();
         Self { width: level.width, height: level.height, starts, peaks }
     }
 
+    /// Cells along u.
+    pub(super) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Cells along v.
+    pub(super) fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The peaks of a cell.
     #[inline(always)]
-    fn cell(&self, i: usize, j: usize) -> &[PhongPeak] {
+    pub(super) fn cell(&self, i: usize, j: usize) -> &[PhongPeak] {
+        &self.peaks[self.places(i, j)]
+    }
+
+    /// Where the peaks of a cell stand in the list.
+    #[inline(always)]
+    fn places(&self, i: usize, j: usize) -> Range<usize> {
         let k = j * self.width + i;
-        &self.peaks[self.starts[k] as usize..self.starts[k + 1] as usize]
+        self.starts[k] as usize..self.starts[k + 1] as usize
     }
 
     fn bytes(&self) -> usize {
@@ -48,13 +64,20 @@ impl StoredLevel {
 
 /// A normal map with a pyramid of peaks above it. Level 0 is the map: each texel is one peak.
 pub(super) struct PeakMap {
-    map: Arc<NormalMap>,
+    pub map: Arc<NormalMap>,
     exponent: f32,
     /// Amplitude of the base lobe: (s+2)/2π.
     unit: f32,
-    base: BaseLobe,
+    pub base: BaseLobe,
     /// Levels 1 and up.
-    levels: Vec<StoredLevel>,
+    pub levels: Vec<StoredLevel>,
+}
+
+/// Which peak: its level, and its place in the level's list; at level 0, the texel's in the map's.
+#[derive(Clone, Copy)]
+pub(super) struct PeakAt {
+    pub level: usize,
+    pub index: usize,
 }
 
 impl PeakMap {
@@ -64,15 +87,15 @@ impl PeakMap {
         Self { map, exponent: exponent as f32, unit, base, levels }
     }
 
-    /// Calls `take` with every peak at (u, v) and its interpolation weight: bilinear within the two
+    /// Calls `take` with every peak at (u, v), its interpolation weight and which it is: bilinear within the two
     /// levels around `level`, linear between them. Peaks are never averaged (§2.4).
     #[inline(always)]
-    fn each_peak(
+    pub(super) fn each_peak(
         &self,
         at: &Footprint,
         level: f32,
         share: f32,
-        mut take: impl FnMut(PhongPeak, f32),
+        mut take: impl FnMut(PhongPeak, f32, PeakAt),
     ) {
         let held = level.clamp(0.0, self.levels.len() as f32);
         let below = held as usize;
@@ -89,7 +112,7 @@ impl PeakMap {
         at: &Footprint,
         level: usize,
         share: f32,
-        take: &mut impl FnMut(PhongPeak, f32),
+        take: &mut impl FnMut(PhongPeak, f32, PeakAt),
     ) {
         let stored = level.checked_sub(1).map(|above| &self.levels[above]);
         let (width, height) =
@@ -98,9 +121,10 @@ impl PeakMap {
         for (j, weight_v) in ends(wrap.taps(at.v, height)) {
             for (i, weight_u) in ends(wrap.taps(at.u, width)) {
                 let weight = share * weight_u * weight_v;
+                let mut taken = |peak, index| take(peak, weight, PeakAt { level, index });
                 match stored {
-                    Some(level) => level.cell(i, j).iter().for_each(|&peak| take(peak, weight)),
-                    None => take(self.texel(i, j), weight),
+                    Some(stored) => stored.places(i, j).for_each(|k| taken(stored.peaks[k], k)),
+                    None => taken(self.texel(i, j), j * width + i),
                 }
             }
         }
@@ -127,11 +151,15 @@ impl Prefiltered for PeakMap {
         self.levels.iter().map(StoredLevel::bytes).sum()
     }
 
+    fn store(&self) -> Option<Vec<u8>> {
+        Some(stored::to_bytes(&self.levels, &[]))
+    }
+
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let level = at.level(self.map.width(), self.map.height());
         let share = filtered_share(level);
         let mut surface = MultipleSurface::new();
-        self.each_peak(at, level, share, |peak, weight| surface.add(peak, weight));
+        self.each_peak(at, level, share, |peak, weight, _| surface.add(peak, weight));
         surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0 - share);
         surface
     }
@@ -143,20 +171,13 @@ impl Prefiltered for PeakMap {
             if batch.irradiance[lane] <= 0.0 {
                 continue;
             }
-            let [half, light, view] = [&batch.half, &batch.light, &batch.view]
-                .map(|axis| [axis[0][lane], axis[1][lane], axis[2][lane]]);
+            let (half, light, view) = (batch.half(lane), batch.light(lane), batch.view(lane));
             let at = batch.footprint(lane);
             let level = at.level(self.map.width(), self.map.height());
             let share = filtered_share(level);
-            slots.count = 0;
-            self.each_peak(&at, level, share, |peak, weight| slots.push(peak, weight));
-            // Each arm is a loop of its own, without branches inside.
-            let mut sum = match shading {
-                Shading::Ndf => slots.sum(|peak| peak.density(half)),
-                Shading::Microfacet => {
-                    slots.sum(|peak| peak.radiance(Shading::Microfacet, half, light, view))
-                }
-            };
+            slots.clear();
+            self.each_peak(&at, level, share, |peak, weight, _| slots.push(peak, weight));
+            let mut sum = slots.radiance(shading, half, light, view);
             if share < 1.0 {
                 let lobe = unfiltered_lobe(&self.map, &self.base, at.u, at.v).faded(1.0 - share);
                 sum += lobe.radiance(shading, half, light, view);
@@ -172,7 +193,7 @@ const SLOTS: usize = MOST_PEAKS * 4 * 2;
 const GROUP: usize = 8;
 
 /// The peaks at a shading point, axis by axis.
-struct Slots {
+pub(super) struct Slots {
     count: usize,
     direction: [[f32; SLOTS]; 3],
     amplitude: [f32; SLOTS],
@@ -187,8 +208,25 @@ impl Default for Slots {
 }
 
 impl Slots {
+    /// Empties them.
     #[inline(always)]
-    fn push(&mut self, peak: PhongPeak, weight: f32) {
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Radiance for unit irradiance, summed over the peaks. Each arm is a loop of its own, without
+    /// branches inside.
+    #[inline(always)]
+    pub(super) fn radiance(&self, shading: Shading, half: V3, light: V3, view: V3) -> f32 {
+        match shading {
+            Shading::Ndf => self.sum(|peak| peak.density(half)),
+            Shading::Microfacet => self.sum(|peak| peak.radiance(shading, half, light, view)),
+        }
+    }
+
+    /// Adds a peak, its amplitude multiplied by `weight`; 0 adds nothing.
+    #[inline(always)]
+    pub(super) fn push(&mut self, peak: PhongPeak, weight: f32) {
         if weight > 0.0 && self.count < SLOTS {
             for (axis, value) in self.direction.iter_mut().zip(peak.direction) {
                 axis[self.count] = value;

@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::Fournier;
-use crate::fit::{Directions, Fit, Peak, reconstruct};
+use super::{Fournier, Mode};
+use crate::fit::{Directions, NormalBins, Peak, mixture, reconstruct};
 use crate::geometry::{HemisphereGrid, Vec3};
+use crate::lobe::PhongPeak;
 use crate::method::{PrefilterError, Progress};
 use crate::texture::{NormalMap, level_sizes, tap_weights};
 
@@ -15,54 +16,51 @@ use crate::texture::{NormalMap, level_sizes, tap_weights};
 pub(super) struct Level {
     pub width: usize,
     pub height: usize,
-    pub cells: Vec<Fit>,
+    pub cells: Vec<Cell>,
 }
 
-/// What became of a level's cells: the counts of Fournier 1992 §2.3.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LevelCounts {
-    /// Cells of the level.
-    pub cells: usize,
-    /// Cells whose normals, identical ones merged, were few enough to be kept as they are.
-    pub kept: usize,
-    /// Cells that were fitted.
-    pub fits: usize,
-    /// Fits that went to the most peaks.
-    pub at_most_peaks: usize,
-    /// Fits whose residual is above the stopping rule's bound, in rms or maximum.
-    pub unmet: usize,
-    /// Fits in which a peak more gave nothing better.
+/// A cell: its peaks, and how they came about.
+pub(super) struct Cell {
+    pub peaks: Vec<PhongPeak>,
+    pub outcome: Outcome,
+}
+
+/// How a cell's peaks came about.
+pub(super) struct Outcome {
+    /// Peaks fitted, those left out included; 0 if the normals were kept as they are.
+    pub fitted: usize,
+    /// Whether the stopping rule's bound was met.
+    pub met: bool,
+    /// Peaks more that gave nothing better.
     pub failures: usize,
 }
 
-/// Builds the pyramid of a map and counts what became of its cells, level by level from the first
-/// above the map. `exponent` > 0 is the base lobe's.
-///
-/// # Errors
-/// [`PrefilterError::Cancelled`].
-pub fn count_fits(
-    method: &Fournier,
-    map: &NormalMap,
-    exponent: f64,
-    progress: &dyn Progress,
-) -> Result<Vec<LevelCounts>, PrefilterError> {
-    let levels = build(method, map, exponent, progress)?;
-    Ok(levels.iter().map(|level| count(method, level)).collect())
+/// Where a cell is: the size of its level, its column and row.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub size: (usize, usize),
+    pub column: usize,
+    pub row: usize,
 }
 
-fn count(method: &Fournier, level: &Level) -> LevelCounts {
-    let mut counts = LevelCounts { cells: level.cells.len(), ..LevelCounts::default() };
-    for fit in &level.cells {
-        counts.failures += fit.failures;
-        if fit.termination.is_none() {
-            counts.kept += 1;
-            continue;
-        }
-        counts.fits += 1;
-        counts.at_most_peaks += usize::from(fit.fitted == method.greedy.max_peaks);
-        counts.unmet += usize::from(!fit.within(method.greedy.stop));
+impl Place {
+    /// The cells of a level.
+    fn all(size: (usize, usize)) -> impl Iterator<Item = Self> {
+        let row = move |row| (0..size.0).map(move |column| Self { size, column, row });
+        (0..size.1).flat_map(row)
     }
-    counts
+
+    /// The texels under it, row by row: unit normal, and weight times the texel's share of the cell.
+    pub fn texels(self, map: &NormalMap) -> impl Iterator<Item = (Vec3, f64)> {
+        let rows = tap_weights(map.height(), self.size.1, self.row);
+        rows.flat_map(move |(y, share_y)| {
+            let columns = tap_weights(map.width(), self.size.0, self.column);
+            columns.map(move |(x, share_x)| {
+                let [nx, ny, nz, weight] = map.texel(x, y).map(f64::from);
+                (Vec3::new(nx, ny, nz), share_x * share_y * weight)
+            })
+        })
+    }
 }
 
 /// Every level above the map, each from the map itself.
@@ -72,18 +70,23 @@ pub(super) fn build(
     exponent: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<Level>, PrefilterError> {
-    let directions = Directions::new(HemisphereGrid::new(method.rings, method.azimuths));
+    let builder = Builder {
+        method,
+        map,
+        exponent,
+        directions: Directions::new(HemisphereGrid::new(method.rings, method.azimuths)),
+        cancelled: &|| progress.cancelled(),
+    };
     let sizes = level_sizes(map.width(), map.height());
     // The largest regions first: what is left for the last moment is small.
-    let places: Vec<_> = sizes[1..].iter().rev().flat_map(|&size| cells_of(size)).collect();
+    let places: Vec<Place> = sizes[1..].iter().rev().flat_map(|&size| Place::all(size)).collect();
     let (done, total) = (AtomicUsize::new(0), places.len());
-    let make = |&(size, i, j): &((usize, usize), usize, usize)| {
-        let normals = normals_under(map, exponent, size, i, j);
-        let cell = cell(method, &normals, &directions, progress);
+    let make = |&place: &Place| {
+        let cell = builder.cell(place);
         progress.advance(done.fetch_add(1, Ordering::Relaxed) + 1, total);
         cell
     };
-    let made: Option<Vec<Fit>> = places.par_iter().with_max_len(1).map(make).collect();
+    let made: Option<Vec<Cell>> = places.par_iter().with_max_len(1).map(make).collect();
     let mut rest = made.ok_or(PrefilterError::Cancelled)?.into_iter();
     let mut levels: Vec<Level> = Vec::with_capacity(sizes.len() - 1);
     for &(width, height) in sizes[1..].iter().rev() {
@@ -93,47 +96,73 @@ pub(super) fn build(
     Ok(levels)
 }
 
-fn cells_of(size: (usize, usize)) -> impl Iterator<Item = ((usize, usize), usize, usize)> {
-    (0..size.1).flat_map(move |j| (0..size.0).map(move |i| (size, i, j)))
-}
-
-/// The texels under cell (i, j) of a level of this size, spread with the base lobe's normalisation:
-/// amplitude w (s+2)/2π times the texel's share of the cell.
-fn normals_under(
-    map: &NormalMap,
+/// What all cells have in common.
+struct Builder<'a> {
+    method: &'a Fournier,
+    map: &'a NormalMap,
     exponent: f64,
-    size: (usize, usize),
-    i: usize,
-    j: usize,
-) -> Vec<Peak> {
-    let unit = (exponent + 2.0) / TAU;
-    let mut normals = Vec::new();
-    for (y, share_y) in tap_weights(map.height(), size.1, j) {
-        for (x, share_x) in tap_weights(map.width(), size.0, i) {
-            let [nx, ny, nz, weight] = map.texel(x, y).map(f64::from);
-            let amplitude = share_x * share_y * weight * unit;
-            normals.push(Peak { amplitude, direction: Vec3::new(nx, ny, nz), exponent });
-        }
-    }
-    normals
+    directions: Directions,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// `None` if cancelled.
-fn cell(
-    method: &Fournier,
-    normals: &[Peak],
-    directions: &Directions,
-    progress: &dyn Progress,
-) -> Option<Fit> {
-    if progress.cancelled() {
-        return None;
+/// Texels taken between two looks at whether to stop.
+const TEXELS_AT_A_TIME: usize = 4096;
+
+impl Builder<'_> {
+    /// `None` if cancelled.
+    fn cell(&self, place: Place) -> Option<Cell> {
+        if (self.cancelled)() {
+            return None;
+        }
+        let (peaks, outcome) = match self.method.mode {
+            Mode::Paper => self.fitted(place)?,
+            Mode::Fast => self.mixed(place)?,
+        };
+        Some(Cell { peaks: peaks.iter().map(phong).collect(), outcome })
     }
-    let mut fit = reconstruct(normals, directions, method.greedy, &|| progress.cancelled())
-        .expect("a normal map holds unit normals and weights of at least 0")?;
-    if method.rescaled && fit.termination.is_some() {
-        rescale(&mut fit.peaks, normals);
+
+    /// The paper's way: a fit to the sampled distribution.
+    fn fitted(&self, place: Place) -> Option<(Vec<Peak>, Outcome)> {
+        let (unit, exponent) = ((self.exponent + 2.0) / TAU, self.exponent);
+        let normals: Vec<Peak> = place
+            .texels(self.map)
+            .map(|(direction, weight)| Peak { amplitude: weight * unit, direction, exponent })
+            .collect();
+        let greedy = self.method.greedy;
+        let fit = reconstruct(&normals, &self.directions, greedy, self.cancelled)
+            .expect("a normal map holds unit normals and weights of at least 0")?;
+        let mut peaks = fit.peaks;
+        if self.method.rescaled && fit.fitted > 0 {
+            rescale(&mut peaks, &normals);
+        }
+        let met = fit.rms < greedy.stop && fit.maximum < greedy.stop;
+        // A first fit that fails is a fit all the same.
+        let fitted = if fit.termination.is_some() { fit.fitted.max(1) } else { 0 };
+        Some((peaks, Outcome { fitted, met, failures: fit.failures }))
     }
-    Some(fit)
+
+    /// The fast way: a mixture in closed form.
+    fn mixed(&self, place: Place) -> Option<(Vec<Peak>, Outcome)> {
+        let greedy = self.method.greedy;
+        let mut normals = NormalBins::new(self.exponent, greedy.max_peaks);
+        for (k, (normal, weight)) in place.texels(self.map).enumerate() {
+            if k % TEXELS_AT_A_TIME == 0 && (self.cancelled)() {
+                return None;
+            }
+            normals.add(normal, weight);
+        }
+        let found = mixture(&normals, greedy, self.cancelled)?;
+        let met = found.error < greedy.stop && found.largest < greedy.stop;
+        Some((found.peaks, Outcome { fitted: found.fitted, met, failures: found.failures }))
+    }
+}
+
+fn phong(peak: &Peak) -> PhongPeak {
+    PhongPeak {
+        amplitude: peak.amplitude as f32,
+        direction: [peak.direction.x, peak.direction.y, peak.direction.z].map(|c| c as f32),
+        exponent: peak.exponent as f32,
+    }
 }
 
 /// Multiplies amplitudes so that the peaks' vector moment along the normals' own is that of the

@@ -1,0 +1,23 @@
+//! Floor 6: evidence. What a paper shows and claims, made and measured again: one folder a paper, one
+//! file a figure, table or number of it.
+//!
+//! An [`Exhibit`] is what a run found for one *row* of a paper: [`Claim`]s, each set beside what was
+//! measured with a [`Verdict`] that the run computes, and [`Figure`]s and [`Table`]s as plain data,
+//! which the report draws. What varies from run to run (times) is kept apart, in [`Exhibit::timed`].
+
+mod claim;
+mod exhibit;
+mod figure;
+mod fournier_1992;
+mod gather;
+mod paper;
+mod table;
+
+pub use claim::{Claim, Quantity, Verdict};
+pub use exhibit::{Evidence, Exhibit, Timed};
+pub use figure::{
+    Axis, Chart, Disc, Drawing, Field, Figure, Images, LobePlot, Panel, Reflection, Series,
+};
+pub use gather::{Findings, Gathered, gather};
+pub use paper::{FinishedPart, Halted, Paper, Row, Task, find, keys, papers};
+pub use table::{Cell, Table};

@@ -1,0 +1,70 @@
+//! The templates of all reports, compiled in.
+
+use minijinja::syntax::SyntaxConfig;
+use minijinja::{AutoEscape, Environment};
+
+const TEMPLATES: [(&str, &str); 10] = [
+    ("table.md", include_str!("templates/table.md")),
+    ("parts.html", include_str!("templates/parts.html")),
+    ("base.html", include_str!("templates/base.html")),
+    ("report.md", include_str!("templates/report.md")),
+    ("report.html", include_str!("templates/report.html")),
+    ("evidence.md", include_str!("templates/evidence.md")),
+    ("evidence.html", include_str!("templates/evidence.html")),
+    ("style.css", include_str!("templates/style.css")),
+    ("script.js", include_str!("templates/script.js")),
+    ("costs.md", include_str!("templates/costs.md")),
+];
+
+/// Fills in a template by its name.
+///
+/// # Panics
+/// If there is no such template or it asks for what it is not given: programming errors that a test
+/// of each report finds.
+pub fn render(template: &str, context: minijinja::Value) -> String {
+    let environment = environment();
+    let found = environment.get_template(template).expect("the template is compiled in");
+    found.render(context).expect("templates use only what they are given; tests render each")
+}
+
+fn environment() -> Environment<'static> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|name| {
+        if name.ends_with(".html") { AutoEscape::Html } else { AutoEscape::None }
+    });
+    let mut syntax = SyntaxConfig::builder();
+    syntax.trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true);
+    environment.set_syntax(syntax.build().expect("only the handling of whitespace is changed"));
+    environment.add_filter("plain", plain);
+    for (name, source) in TEMPLATES {
+        environment
+            .add_template(name, source)
+            .expect("the template is compiled in; tests parse it");
+    }
+    environment
+}
+
+/// Text that Markdown takes as it stands: nothing in it is markup, and it stays on one line.
+fn plain(text: String) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\\' | '|' | '*' | '`' | '[' | ']' | '#' | '_' => out.extend(['\\', c]),
+            '<' => out.push_str("&lt;"),
+            '&' => out.push_str("&amp;"),
+            '\n' | '\r' => out.push(' '),
+            _ => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_never_markup() {
+        assert_eq!(plain("a|b <script>\n*x*".into()), "a\\|b &lt;script> \\*x\\*");
+    }
+}
