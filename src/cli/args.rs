@@ -36,6 +36,8 @@ pub enum Command {
     Lobes(LobesArgs),
     /// Score one image against another.
     Compare(CompareArgs),
+    /// Fit Phong peaks to a measured distribution.
+    Fit(FitArgs),
 }
 
 /// Arguments of `run`.
@@ -170,6 +172,36 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
+/// Arguments of `fit`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle fit samples.csv
+  wrinkle fit samples.csv --max-peaks 3 --plot fit.png
+  wrinkle fit samples.csv --restarts 14 --json
+
+A line of the file is x,y,z,value: a direction of any length, z along the surface's normal, and the
+density there, at least 0. Blank lines, lines that begin with # and a header are skipped.")]
+pub struct FitArgs {
+    /// The samples.
+    #[arg(value_name = "SAMPLES.csv")]
+    pub samples: PathBuf,
+    /// The most peaks.
+    #[arg(long, value_name = "K", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=32))]
+    pub max_peaks: u16,
+    /// Add no peak once rms and maximum of what is left are below this part of the samples'.
+    #[arg(long, value_name = "PART", default_value_t = 0.05, allow_negative_numbers = true, value_parser = parse_stop)]
+    pub stop: f64,
+    /// How often, at the end, a peak is set anew where most is left; kept if that is better.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
+    pub restarts: u16,
+    /// Draw samples, fit and what is left to this PNG.
+    #[arg(long, value_name = "OUT.png")]
+    pub plot: Option<PathBuf>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
 fn parse_size(text: &str) -> Result<(usize, usize), String> {
     let (width, height) = text.split_once('x').ok_or("write it as 640x480")?;
     let side = |side: &str| match side.parse() {
@@ -204,6 +236,13 @@ fn parse_exposure(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(exposure) if exposure > 0.0 && f64::is_finite(exposure) => Ok(exposure),
         _ => Err("give a number above 0".into()),
+    }
+}
+
+fn parse_stop(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(part) if (0.0..=1.0).contains(&part) => Ok(part),
+        _ => Err("give a number from 0 to 1".into()),
     }
 }
 

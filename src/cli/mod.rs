@@ -4,6 +4,7 @@ mod args;
 mod compare;
 mod exit;
 mod experiments;
+mod fit;
 mod list;
 mod lobes;
 mod output;
@@ -39,6 +40,7 @@ fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
         Some(Command::Render(args)) => render::render(&args, out),
         Some(Command::Lobes(args)) => lobes::lobes(&args, out),
         Some(Command::Compare(args)) => compare::compare(&args, out),
+        Some(Command::Fit(args)) => fit::fit(&args, out),
         None => {
             // Nothing was asked: help, as a first answer.
             write!(out, "{}", Args::command().render_help().ansi())?;

@@ -141,7 +141,7 @@ fn failed(error: RunError) -> Failure {
 }
 
 /// A halt that Ctrl-C (or SIGTERM) sets; the second one ends the program at once.
-fn halt_on_interrupt() -> Halt {
+pub(super) fn halt_on_interrupt() -> Halt {
     let halt = Halt(Arc::new(AtomicBool::new(false)));
     let flag = Arc::clone(&halt.0);
     // Without a handler (there is one already) the program ends at once, and still loses nothing.

@@ -1,7 +1,7 @@
 //! Floor 2: fitting Phong peaks to a distribution of normals (Fournier 1992 §2).
 //!
 //! [`Directions`] are where a distribution is known; [`Distribution`] is what a region's normals make
-//! of it; [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
+//! of it, or what was measured ([`Samples`]); [`PeakProblem`] is the least-squares problem for a fixed number of peaks;
 //! [`LevenbergMarquardt`] solves such problems; [`fit`] is the paper's procedure, a peak more at a time.
 
 mod channels;
@@ -9,15 +9,12 @@ mod directions;
 mod distribution;
 mod greedy;
 mod guess;
-#[cfg(test)]
-mod independent;
 mod kernel;
 mod least_squares;
 mod mixture;
 mod peak;
 mod problem;
-#[cfg(test)]
-mod reference_data;
+mod samples;
 mod solver;
 #[cfg(test)]
 mod tests;
@@ -31,4 +28,5 @@ pub use least_squares::{LeastSquares, NormalEquations};
 pub use mixture::{Mixture, NormalBins, mixture};
 pub use peak::{InputError, Peak, merged};
 pub use problem::PeakProblem;
+pub use samples::{Samples, SamplesError};
 pub use solver::{LevenbergMarquardt, Settings, Solution, Termination, solve};

@@ -106,7 +106,8 @@ impl Visibility {
     /// should be correctly ratioed to correct for the smaller visible area", §5).
     #[inline(always)]
     pub fn ratio(&self) -> f32 {
-        if self.seen > 0.0 { self.area / self.seen } else { 0.0 }
+        let ratio = self.area / self.seen;
+        if ratio.is_finite() { ratio } else { 0.0 }
     }
 }
 

@@ -207,5 +207,9 @@ mod tests {
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), named().len());
+        let manual = include_str!("../../docs/surfaces.md");
+        for name in names {
+            assert!(manual.contains(&format!("`{name}`")), "{name} is not in the manual");
+        }
     }
 }

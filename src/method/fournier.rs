@@ -56,6 +56,8 @@ pub struct Fournier {
     pub rings: usize,
     /// Directions in a ring.
     pub azimuths: usize,
+    /// How far directions are moved within their cells, 0 to 1.
+    pub jitter: f64,
     /// Whether fitted amplitudes are rescaled to keep the energy.
     pub rescaled: bool,
     /// What of a peak's light reaches the eye.
@@ -80,6 +82,7 @@ impl Default for Fournier {
             greedy: GreedyOptions::default(),
             rings: 18,
             azimuths: 72,
+            jitter: 0.0,
             rescaled: false,
             shadowing: Shadowing::None,
         }
@@ -130,6 +133,11 @@ const PARAMETERS: &[Parameter] = &[
         domain: Domain::Whole { default: 72, min: 4, max: 720 },
     },
     Parameter {
+        name: "jitter",
+        meaning: "how far each direction of the grid is moved within its cell, at random but always the same",
+        domain: Domain::Real { default: 0.0, min: 0.0, max: 1.0 },
+    },
+    Parameter {
         name: "energy",
         meaning: "fitted: amplitudes as the fit gives them, as printed; rescaled: multiplied so that \
                   a cell's energy is that of its normals",
@@ -159,6 +167,7 @@ impl Fournier {
             },
             rings: values.whole("rings"),
             azimuths: values.whole("azimuths"),
+            jitter: values.number("jitter"),
             rescaled: values.word("energy") == "rescaled",
             shadowing: match values.word("shadowing") {
                 "printed" => Shadowing::Printed,
@@ -180,6 +189,11 @@ fn widest_range(exponent: f64) -> std::ops::RangeInclusive<f32> {
 }
 
 impl Fournier {
+    /// The directions in which distributions are sampled.
+    fn grid(&self) -> HemisphereGrid {
+        HemisphereGrid::jittered(self.rings, self.azimuths, self.jitter, 0)
+    }
+
     /// The exponent of a base lobe the method can take.
     fn exponent(&self, base: &BaseLobe) -> Result<f64, Refusal> {
         let BaseLobe::BlinnPhong { exponent } = *base else {
@@ -239,7 +253,7 @@ impl Method for Fournier {
         if self.shadowing == Shadowing::None {
             return Ok(Box::new(peaks));
         }
-        let grid = HemisphereGrid::new(self.rings, self.azimuths);
+        let grid = self.grid();
         let collector = shadow::Collector {
             map,
             texels: HorizonMap::of(&map.heights_or_integrated()),

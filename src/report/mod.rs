@@ -26,6 +26,7 @@ mod evidence;
 mod figure;
 mod figures;
 mod files;
+mod fit_plot;
 mod font;
 mod grid;
 mod lobe_sheet;
@@ -50,6 +51,7 @@ use std::path::{Path, PathBuf};
 
 pub use evidence::write_evidence;
 pub use files::ReportError;
+pub use fit_plot::fit_plot;
 pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};

@@ -10,7 +10,7 @@ use crate::render::{Camera, Film, Portrait, direction};
 use crate::texture::{Footprint, HorizonMap};
 
 use super::super::{
-    Claim, Drawing, Exhibit, Field, Figure, Halted, Images, Panel, Row, Table, Task,
+    Claim, Drawing, Exhibit, Field, Figure, Halted, Images, Panel, Quantity, Row, Table, Task,
 };
 use super::f3::EXPONENT;
 use super::images::{rmse, trial};
@@ -175,21 +175,25 @@ fn f14(task: &Task) -> Result<Exhibit, Halted> {
     let bare = top(Shadowing::None, task)?;
     let shadowed = top(Shadowing::Printed, task)?;
     let [without, with] = [&bare, &shadowed].map(|surface| view.of(surface.clone()));
-    let [share_without, share_with] = [&without, &with].map(|film| near_the_plane(film, &view));
+    let [all_without, all_with] = [&without, &with].map(|film| by_angle(film, &view));
+    let kept: Vec<f64> = all_with.iter().zip(all_without).map(|(with, bare)| with / bare).collect();
     exhibit.claims.push(Claim::shown(
-        "light from within 30° of the plane of eye and light, with shadowing over without",
+        "light kept by points over 60° from the plane of eye and light, of that kept by points within 30°",
         "only the cylinders close to the plane defined by the eye and the light vectors reflect strongly (§5)",
-        share_with / share_without,
-        "above 1",
-        share_with > share_without,
+        kept[2] / kept[0],
+        "at most 1/2",
+        kept[2] <= 0.5 * kept[0],
     ));
     let mut table = Table::new(
         "light",
-        "Part of the light that comes from points of the sphere within 30° of the plane of eye and light.",
-        &["image", "part"],
+        "Light of the sphere's points by their angle from the plane of eye and light, the sum of the image's \
+         radiances.",
+        &["angle", "without", "with shadowing and masking", "part kept"],
     );
-    table.push(vec!["without".into(), share_without.into()]);
-    table.push(vec!["with shadowing and masking".into(), share_with.into()]);
+    for (k, zone) in ["0° to 30°", "30° to 60°", "60° to 90°"].into_iter().enumerate() {
+        let row = [all_without[k], all_with[k], kept[k]].map(Quantity::from);
+        table.push(std::iter::once(zone.into()).chain(row).collect());
+    }
     exhibit.tables.push(table);
     let panels = vec![
         Panel::new("without", "without", Arc::new(without)),
@@ -231,17 +235,16 @@ fn across() -> Portrait {
     }
 }
 
-/// The part of an image's light that comes from within 30° of the plane x = 0.
-fn near_the_plane(film: &Film, view: &Portrait) -> f64 {
-    let (mut near, mut all) = (0.0, 0.0);
+/// The light of an image by the angle of the sphere's normal from the plane x = 0: 0° to 30°, to 60°, to
+/// 90°.
+fn by_angle(film: &Film, view: &Portrait) -> [f64; 3] {
+    let mut sums = [0.0; 3];
     for (i, &radiance) in film.pixels().iter().enumerate() {
         let (x, y) = ((i % film.width()) as f64 + 0.5, (i / film.width()) as f64 + 0.5);
         let ray = view.camera.ray(x, y);
         let Some(hit) = view.shape.intersect(view.camera.origin(), ray) else { continue };
-        all += f64::from(radiance);
-        if hit.frame.normal.x.abs() < 0.5 {
-            near += f64::from(radiance);
-        }
+        let angle = libm::asin(hit.frame.normal.x.abs().min(1.0)).to_degrees();
+        sums[((angle / 30.0) as usize).min(2)] += f64::from(radiance);
     }
-    near / all
+    sums
 }

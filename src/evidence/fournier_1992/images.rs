@@ -80,7 +80,15 @@ fn compare(row: &Row, task: &Task) -> Result<Exhibit, Halted> {
     let mut table = Table::new(
         "errors",
         "Error against the converged image, by the texels across the pixel in the middle of the image.",
-        &["texels a pixel", "image", "samples a pixel", "RMSE", "part of unfiltered's", "SSIM"],
+        &[
+            "texture",
+            "texels a pixel",
+            "image",
+            "samples a pixel",
+            "RMSE",
+            "part of unfiltered's",
+            "SSIM",
+        ],
     );
     for scene in &part.results.scenes {
         at_scale(scene, &part.results.title, &mut exhibit, &mut table);
@@ -98,15 +106,16 @@ const SHOWN: [(&str, &str, u32); 3] = [
 
 /// One scene: how small the bumps were in the paper's images is not printed, so there are several.
 fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut Table) {
-    let texels = scene.key.texels_per_pixel;
-    let converged =
-        Panel::new(&format!("converged-{texels}"), "converged", Arc::clone(&scene.reference.film));
+    let (texture, texels) = (scene.key.texture.as_str(), scene.key.texels_per_pixel);
+    let name = format!("converged-{texture}-{texels}");
+    let converged = Panel::new(&name, "converged", Arc::clone(&scene.reference.film));
     let mut panels = vec![converged.remarked(format!("{} samples a pixel", scene.reference.spp))];
     let first = rmse(trial(scene, "unfiltered", 1));
     for (label, method, spp) in SHOWN {
         let found = trial(scene, method, spp);
         let (error, ssim) = (rmse(found), found.score("ssim").unwrap_or(f64::NAN));
         table.push(vec![
+            texture.into(),
             texels.into(),
             label.into(),
             (spp as usize).into(),
@@ -115,12 +124,12 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
             ssim.into(),
         ]);
         let remark = format!("{spp} sample{} a pixel", if spp == 1 { "" } else { "s" });
-        let name = format!("{label}-{texels}");
+        let name = format!("{label}-{texture}-{texels}");
         panels.push(Panel::new(&name, label, Arc::clone(&found.film)).remarked(remark));
     }
     let filtered = rmse(trial(scene, "fournier", 1));
     let supersampled = rmse(trial(scene, "unfiltered", SUPERSAMPLES));
-    let at = format!("at {texels} texels a pixel");
+    let at = format!("{texture} at {texels} texels a pixel");
     exhibit.claims.push(
         Claim::shown(
             format!("RMSE of the filtered image, of the unfiltered one's, {at}"),
@@ -129,7 +138,10 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
             "below 1/2",
             filtered < 0.5 * first,
         )
-        .because("most of the image is magnified or near it: there is little to filter, and a trilinear lookup blurs"),
+        .because(
+            "a trilinear lookup takes the slanted footprint for a round one: it blurs along the footprint's short \
+             side, which costs most where bumps are seen lengthwise or are hardly smaller than a pixel",
+        ),
     );
     exhibit.claims.push(
         Claim::shown(
@@ -147,9 +159,9 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
     let images = Images { panels, white: None, reference: Some(0), across: 2 };
     let (width, height) = (scene.reference.film.width(), scene.reference.film.height());
     let caption = format!(
-        "{title}, {width} × {height} pixels, {texels} texels across the pixel in the middle."
+        "{title} ({texture}), {width} × {height} pixels, {texels} texels across the pixel in the middle."
     );
-    let name = format!("images-{texels}");
+    let name = format!("images-{texture}-{texels}");
     exhibit.figures.push(Figure::new(&name, caption, Drawing::Images(images)));
 }
 

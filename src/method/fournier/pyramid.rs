@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Fournier, Mode};
 use crate::fit::{Directions, NormalBins, Peak, mixture, reconstruct};
-use crate::geometry::{HemisphereGrid, Vec3};
+use crate::geometry::Vec3;
 use crate::lobe::PhongPeak;
 use crate::method::{PrefilterError, Progress};
 use crate::texture::{NormalMap, level_sizes, tap_weights};
@@ -74,7 +74,7 @@ pub(super) fn build(
         method,
         map,
         exponent,
-        directions: Directions::new(HemisphereGrid::new(method.rings, method.azimuths)),
+        directions: Directions::new(method.grid()),
         cancelled: &|| progress.cancelled(),
     };
     let sizes = level_sizes(map.width(), map.height());

@@ -105,6 +105,7 @@ fn the_kernel_is_the_lobes_bit_by_bit() {
     let most = Fournier {
         greedy: GreedyOptions { max_peaks: MOST_PEAKS, stop: 0.0, restarts: 0 },
         rings: 9,
+        jitter: 0.5,
         azimuths: 24,
         ..Fournier::default()
     };

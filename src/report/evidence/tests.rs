@@ -31,6 +31,10 @@ fn every_claim_and_number_is_in_the_data() {
     assert_eq!(reader.headers().unwrap().iter().collect::<Vec<_>>(), data::COLUMNS);
     let claims: usize = evidence.exhibits.iter().map(|e| e.claims.len()).sum();
     assert_eq!(reader.records().map(Result::unwrap).count(), claims);
+    let manual = include_str!("../../../docs/results.md");
+    for column in data::COLUMNS {
+        assert!(manual.contains(&format!("| `{column}` |")), "{column} is not in the manual");
+    }
     // What was read back is what was written, but for films, times and what is not finite.
     let text = String::from_utf8(data::json(&evidence)).unwrap();
     let read: serde_json::Value = serde_json::from_str(&text).unwrap();

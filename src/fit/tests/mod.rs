@@ -1,8 +1,15 @@
+//! Fits on the paper's grid; the other files hold them to more.
+
+mod against;
+mod certified;
+mod independent;
+mod random;
+mod recovery;
+mod sound;
+
 use argmin::core::{Jacobian, Operator};
 use nalgebra::DVector;
-use proptest::prelude::*;
 
-use super::independent::Independent;
 use super::*;
 use crate::geometry::{HemisphereGrid, Vec3};
 
@@ -23,8 +30,14 @@ fn spread(peaks: &[Peak], directions: &Directions) -> Distribution {
     Distribution::spread(peaks, directions, &|| false).unwrap()
 }
 
-fn quiet() -> LevenbergMarquardt<'static> {
-    LevenbergMarquardt::new(Settings::default(), &|| false)
+fn fitted(
+    distribution: &Distribution,
+    directions: &Directions,
+    max_peaks: usize,
+    restarts: usize,
+) -> Fit {
+    let options = GreedyOptions { max_peaks, stop: 0.0, restarts };
+    fit(distribution, directions, options, &|| false).unwrap()
 }
 
 #[test]
@@ -51,26 +64,6 @@ fn planted_peaks_are_recovered() {
         assert!((nearest.exponent / planted.exponent - 1.0).abs() < 1e-6, "{nearest:?}");
     }
     assert!(fitted.rms < 1e-6 && fitted.failures == 0, "{fitted:?}");
-}
-
-#[test]
-fn the_jacobian_is_the_slope_of_the_residuals() {
-    let directions = grid();
-    let problem_of = spread(&three(), &directions);
-    let problem = PeakProblem::new(&directions, &problem_of);
-    let at = vec![peak(0.8, 0.2, 0.1, 30.0), peak(0.3, -0.5, 0.3, 2.5)];
-    let jacobian = problem.jacobian(&at).unwrap();
-    let step = 1e-5;
-    for unknown in 0..8 {
-        let along = |h: f64| {
-            let mut by = DVector::zeros(8);
-            by[unknown] = h;
-            problem.apply(&problem.moved(&at, &by)).unwrap()
-        };
-        let slope = (along(step) - along(-step)) / (2.0 * step);
-        let gap = (slope - jacobian.column(unknown)).amax();
-        assert!(gap < 1e-8 * jacobian.column(unknown).amax().max(1.0), "unknown {unknown}: {gap}");
-    }
 }
 
 /// A least-squares problem without a form of its own for the normal equations.
@@ -109,45 +102,6 @@ fn accumulated_normal_equations_are_those_of_the_jacobian() {
     assert!((fast.cost / slow.cost - 1.0).abs() < 1e-12);
     assert!((fast.gradient - &slow.gradient).amax() < 1e-12 * slow.gradient.amax());
     assert!((fast.gram - &slow.gram).amax() < 1e-12 * slow.gram.amax());
-}
-
-/// Cost of the independent solver from a start, on the same samples in the same unit.
-fn independent_cost(distribution: &Distribution, directions: &Directions, start: &[Peak]) -> f64 {
-    let places = directions.iter().collect();
-    let target = distribution.values().iter().map(|v| v / distribution.maximum()).collect();
-    let problem = Independent::new(places, target, start);
-    let (_, report) = levenberg_marquardt::LevenbergMarquardt::new().minimize(problem);
-    report.objective_function
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
-    #[test]
-    fn no_worse_than_an_independent_solver(
-        amplitudes in prop::array::uniform3(0.3f64..1.0),
-        turns in prop::array::uniform3(-0.25f64..0.25),
-        stretch in prop::array::uniform3(-0.7f64..0.7),
-    ) {
-        let directions = grid();
-        let mut planted = three();
-        for (p, a) in planted.iter_mut().zip(amplitudes) {
-            p.amplitude = a;
-        }
-        // A fourth peak that three cannot follow: the least cost is not 0.
-        let mut all = planted.to_vec();
-        all.push(peak(0.2, 0.5, 0.5, 25.0));
-        let distribution = spread(&all, &directions);
-        let start: Vec<Peak> = (0..3)
-            .map(|i| Peak {
-                amplitude: 0.5,
-                direction: (planted[i].direction + Vec3::new(turns[i], -turns[(i + 1) % 3], 0.0)).normalize(),
-                exponent: planted[i].exponent * stretch[i].exp(),
-            })
-            .collect();
-        let theirs = independent_cost(&distribution, &directions, &start);
-        let ours = solve(PeakProblem::new(&directions, &distribution), quiet(), start).unwrap();
-        prop_assert!(ours.cost <= 1.01 * theirs, "{} against {theirs}: {:?}", ours.cost, ours.termination);
-    }
 }
 
 #[test]
