@@ -81,9 +81,9 @@ mod tests {
                 assert!(frame.normal.y < 0.0 && hit.plane.y < 0.0);
                 assert!((frame.tangent.cross(&frame.bitangent) - frame.normal).norm() < 1e-12);
                 assert!(frame.tangent.x > 0.0 && frame.bitangent.z > 0.0);
-                // Texels are about square: a unit of u is a unit of length.
+                // A unit of u is a unit of length half way down; folds are shallower above, deeper below.
                 let scale = hit.gradient[0].norm();
-                assert!((0.8..1.25).contains(&scale), "{scale} at {x} {z}");
+                assert!((0.6..1.6).contains(&scale), "{scale} at {x} {z}");
             }
         }
     }

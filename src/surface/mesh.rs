@@ -231,6 +231,8 @@ mod tests {
         let vertex = |ring: usize, step: usize| {
             let (st, ct) = libm::sincos(std::f64::consts::PI * ring as f64 / rings as f64);
             let (sp, cp) = libm::sincos(std::f64::consts::TAU * step as f64 / around as f64);
+            // Exactly a point at both poles, where sin π is not quite 0.
+            let st = if ring == rings { 0.0 } else { st };
             let position = Vec3::new(st * cp, st * sp, ct);
             Vertex { position, normal: position, uv: [step as f64, ring as f64] }
         };
