@@ -1,4 +1,5 @@
 //! `wrinkle fit`: measured samples in, peaks out.
+#![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 mod common;
 
