@@ -81,9 +81,10 @@ mod tests {
                 assert!(frame.normal.y < 0.0 && hit.plane.y < 0.0);
                 assert!((frame.tangent.cross(&frame.bitangent) - frame.normal).norm() < 1e-12);
                 assert!(frame.tangent.x > 0.0 && frame.bitangent.z > 0.0);
-                // A unit of u is a unit of length half way down; folds are shallower above, deeper below.
+                // A unit of u is a unit of length half way down; folds are shallower above, deeper below, and
+                // steeper in their flanks: nowhere more than twice.
                 let scale = hit.gradient[0].norm();
-                assert!((0.6..1.6).contains(&scale), "{scale} at {x} {z}");
+                assert!((0.5..2.0).contains(&scale), "{scale} at {x} {z}");
             }
         }
     }

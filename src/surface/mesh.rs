@@ -107,9 +107,13 @@ impl Triangle {
 }
 
 impl Bounded<f64, 3> for Triangle {
+    /// A hair larger than the triangle: a ray along an axis that runs right in a side of its box would be
+    /// found to miss it.
     fn aabb(&self) -> Aabb<f64, 3> {
-        let grown = Aabb::empty();
-        self.corners.iter().fold(grown, |bounds, corner| bounds.grow(&corner.position.into()))
+        let [a, b, c] = self.corners.map(|corner| corner.position);
+        let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+        let hair = Vec3::repeat(1e-9 * low.amax().max(high.amax()) + 1e-30);
+        Aabb::with_bounds((low - hair).into(), (high + hair).into())
     }
 }
 
