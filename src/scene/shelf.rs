@@ -12,8 +12,8 @@ use crate::texture::NormalMap;
 /// A folder of prefiltered maps that are slow to build.
 ///
 /// A file has, in this order (numbers little-endian; docs/results.md describes it too): the eight bytes
-/// [`MAGIC`], the format's version (4 bytes), the key (32), the seconds it took to build (8, a double),
-/// what [`crate::method::Prefiltered::store`] gave, and the BLAKE3 digest (32) of all before it.
+/// `wrinkleP`, the format's version (4 bytes), the key (32), the seconds it took to build (8, a double), what
+/// [`crate::method::Prefiltered::store`] gave, and the BLAKE3 digest (32) of all before it.
 #[derive(Resource, Clone, Debug)]
 pub struct Shelf {
     /// The folder; made when something is kept.

@@ -3,6 +3,7 @@
 //! What is written beside `[part.NAME]` tables holds for every part; a part's own keys come before it,
 //! table by table.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use toml::Spanned;
@@ -145,7 +146,11 @@ fn read_paper(
         let question = text_at("question").unwrap_or_default();
         let seed = root.whole("seed", 1, 0, i64::MAX as u64);
         let choices: Vec<_> = papers.iter().map(|p| (p.name, p)).collect();
-        let paper = root.item("paper").and_then(|item| item.choice(&choices))?;
+        let Some(paper) = root.item("paper").and_then(|item| item.choice(&choices)) else {
+            // What else it may hold is not known.
+            root.forgive();
+            return None;
+        };
         let rows = read_rows(root, paper);
         let parts = read_parts(root, document, text, log);
         if !parts.is_empty() {
@@ -229,14 +234,19 @@ fn laid_over<'a>(common: &DeTable<'a>, own: &DeTable<'a>) -> DeTable<'a> {
     whole
 }
 
-/// Logs the parts that rows need and the spec has not.
+/// Logs the parts that rows need and the spec has not, each once.
 fn need_parts(root: &Reader, paper: &PaperKeys, parts: &[Spec]) {
-    for row in &paper.rows {
-        for &part in row.parts {
-            if !parts.iter().any(|spec| spec.name == part) {
-                let message = format!("row `{}` needs a sweep under [part.{part}]", row.name);
-                root.log().error(root.log().end(), message, None);
-            }
+    let needed: BTreeSet<&str> =
+        paper.rows.iter().flat_map(|row| row.parts.iter().copied()).collect();
+    for part in needed {
+        if parts.iter().any(|spec| spec.name == part) {
+            continue;
         }
+        let rows = paper.rows.iter().filter(|row| row.parts.contains(&part));
+        let rows: Vec<&str> = rows.map(|row| row.name).collect();
+        let (word, verb) = if rows.len() == 1 { ("row", "needs") } else { ("rows", "need") };
+        let message =
+            format!("{word} {} {verb} a sweep under [part.{part}]", all_of(&quoted(&rows)));
+        root.log().error(root.log().end(), message, None);
     }
 }

@@ -83,6 +83,12 @@ fn mistakes_are_told_with_their_place() {
 }
 
 #[test]
+fn of_a_paper_that_is_not_there_no_more_is_said() {
+    let error = read("paper = \"cloth-1990\"\n[row.x]\n").unwrap_err();
+    assert!(error.contains("must be \"bumps-1990\"") && !error.contains("unknown key"), "{error}");
+}
+
+#[test]
 fn without_parts_the_keys_of_sweeps_are_strangers() {
     let error = read("paper = \"bumps-1990\"\n[image]\nwidth = 4\n").unwrap_err();
     assert!(error.contains("unknown key `image`"), "{error}");
