@@ -3,7 +3,7 @@
 use crate::experiment::results::SceneResult;
 
 use super::super::{Claim, Exhibit, Halted, Row, Table, Task};
-use super::images::{rmse, trial};
+use super::images::{rmse, trials};
 
 /// The row.
 pub const ROW: Row = Row {
@@ -29,7 +29,14 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     );
     let mut logs = 0.0;
     for scene in &part.results.scenes {
-        let [fits, fast] = ["fournier", "fournier-fast"].map(|m| rmse(trial(scene, m, 1)));
+        let found = match trials(scene, [("fournier", 1), ("fournier-fast", 1)]) {
+            Ok(found) => found,
+            Err(claim) => {
+                exhibit.claims.push(*claim);
+                continue;
+            }
+        };
+        let [fits, fast] = found.map(rmse);
         let [far_fits, far_fast] = ["fournier", "fournier-fast"].map(|m| distance(scene, m));
         logs += libm::log(fast / fits);
         table.push(vec![
@@ -42,13 +49,18 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
             far_fast.into(),
         ]);
     }
-    let mean = libm::exp(logs / part.results.scenes.len() as f64);
-    exhibit.claims.push(Claim::shown(
-        "RMSE of the fast mode, of the fits', geometric mean over the scenes",
-        "nothing: the paper samples the hemisphere every 5°",
-        mean,
-        "at most 1.25",
-        mean <= 1.25,
+    if !table.rows.is_empty() {
+        let mean = libm::exp(logs / table.rows.len() as f64);
+        exhibit.remarks.push(format!(
+            "RMSE of the fast mode is {mean:.3} times that of the fits, the geometric mean over {} scenes.",
+            table.rows.len()
+        ));
+    }
+    // What the paper does not claim cannot be reproduced.
+    exhibit.claims.push(Claim::not_applicable(
+        "a mode that does not sample the hemisphere",
+        "nothing: the paper samples it every 5°",
+        "beyond the paper; the table sets it beside the fits",
     ));
     let mut times = Table::new(
         "times",

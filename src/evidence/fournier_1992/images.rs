@@ -110,9 +110,12 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
     let name = format!("converged-{texture}-{texels}");
     let converged = Panel::new(&name, "converged", Arc::clone(&scene.reference.film));
     let mut panels = vec![converged.remarked(format!("{} samples a pixel", scene.reference.spp))];
-    let first = rmse(trial(scene, "unfiltered", 1));
-    for (label, method, spp) in SHOWN {
-        let found = trial(scene, method, spp);
+    let found = match trials(scene, SHOWN.map(|(_, method, spp)| (method, spp))) {
+        Ok(found) => found,
+        Err(claim) => return exhibit.claims.push(*claim),
+    };
+    let [first, filtered, supersampled] = found.map(rmse);
+    for ((label, _, spp), found) in SHOWN.into_iter().zip(found) {
         let (error, ssim) = (rmse(found), found.score("ssim").unwrap_or(f64::NAN));
         table.push(vec![
             texture.into(),
@@ -127,8 +130,6 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
         let name = format!("{label}-{texture}-{texels}");
         panels.push(Panel::new(&name, label, Arc::clone(&found.film)).remarked(remark));
     }
-    let filtered = rmse(trial(scene, "fournier", 1));
-    let supersampled = rmse(trial(scene, "unfiltered", SUPERSAMPLES));
     let at = format!("{texture} at {texels} texels a pixel");
     exhibit.claims.push(
         Claim::shown(
@@ -165,13 +166,25 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
     exhibit.figures.push(Figure::new(&name, caption, Drawing::Images(images)));
 }
 
-/// The trial of a method at a sample count.
+/// Trials of a scene, each by its method's label and samples a pixel.
 ///
-/// # Panics
-/// If the sweep has none: the experiment's parts are written with the rows.
-pub fn trial<'a>(scene: &'a SceneResult, method: &str, spp: u32) -> &'a TrialResult {
-    let found = scene.trials.iter().find(|t| t.method == method && t.spp == spp);
-    found.unwrap_or_else(|| panic!("the part has no trial of {method} at {spp} samples"))
+/// # Errors
+/// If one is missing (a sweep may leave a method out, and a method may refuse a base lobe), the claim that
+/// nothing can be held against anything here.
+pub fn trials<'a, const N: usize>(
+    scene: &'a SceneResult,
+    wanted: [(&str, u32); N],
+) -> Result<[&'a TrialResult; N], Box<Claim>> {
+    let found = wanted
+        .map(|(method, spp)| scene.trials.iter().find(|t| t.method == method && t.spp == spp));
+    if let Some(missing) = found.iter().position(Option::is_none) {
+        let (method, spp) = wanted[missing];
+        let what =
+            format!("{} at {} texels a pixel", scene.key.texture, scene.key.texels_per_pixel);
+        let why = format!("the sweep has no image of {method} at {spp} samples a pixel");
+        return Err(Box::new(Claim::not_applicable(what, "", why)));
+    }
+    Ok(found.map(|trial| trial.expect("none is missing")))
 }
 
 /// A trial's root mean square error.
@@ -195,8 +208,12 @@ fn near_the_pole(part: &FinishedPart) -> Claim {
     });
     let near = near.unwrap_or_default();
     let reference = &scene.reference.film;
-    let of = |method, spp| error_where(&near, &trial(scene, method, spp).film, reference);
-    let ratio = of("fournier", 1) / of("unfiltered", SUPERSAMPLES);
+    let [filtered, supersampled] =
+        match trials(scene, [("fournier", 1), ("unfiltered", SUPERSAMPLES)]) {
+            Ok(found) => found.map(|trial| error_where(&near, &trial.film, reference)),
+            Err(claim) => return *claim,
+        };
+    let ratio = filtered / supersampled;
     Claim::shown(
         "RMSE near the north pole of the filtered image, of the supersampled one's",
         "slightly more aliased near the north pole with filtering (§3)",
