@@ -155,11 +155,3 @@ fn verdicts_are_told_in_words() {
     assert!(page.contains("2 of 3 claims hold; of these with 7 peaks: paper 5, here 9"));
     assert!(page.contains("peaks for a hemisphere: paper 7, here not a number"));
 }
-
-/// For the eye: `REPORT_TO=folder cargo test --lib evidence::tests::look`.
-#[test]
-fn look() {
-    if let Some(folder) = std::env::var_os("REPORT_TO") {
-        write_evidence(&fixture::evidence(), &fixture::secs(), Path::new(&folder)).unwrap();
-    }
-}
