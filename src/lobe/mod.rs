@@ -19,6 +19,7 @@ mod pearson;
 mod pedal;
 mod reflection;
 pub mod round;
+mod slopes;
 mod surface_file;
 pub mod vector;
 
@@ -32,4 +33,5 @@ pub use peak::PhongPeak;
 pub use pearson::PearsonLobe;
 pub use pedal::PedalLobe;
 pub use reflection::reflection;
+pub use slopes::{GAUSSIANS, Gaussian, Slopes};
 pub use surface_file::{SurfaceFileError, read_peaks};
