@@ -13,8 +13,9 @@ use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
-    ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
+    BumpSource, CameraPose, LightSource, LoadError, LookupBy, Material, PrefilterOf, ProbePlan,
+    ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling,
+    TrialOf,
 };
 use crate::surface::{Plane, Shape, Sphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
@@ -99,10 +100,8 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     for (index, &texture) in plan.textures.iter().enumerate() {
         let texture_key = super::keys::texture(&spec.sweep.textures[index]);
         for &(base, material) in &materials {
-            let prefilters: Vec<Entity> = strategies
-                .iter()
-                .map(|&strategy| world.spawn(PrefilterOf { texture, strategy, material }).id())
-                .collect();
+            let of = |strategy| PrefilterOf { texture, strategy, material };
+            let prefilters = spawn_prefilters(world, spec, &strategies, of);
             for placement in &placements {
                 let of = SceneOf { texture, surface, camera: placement.camera, light, material };
                 let slug = slug(spec, index, &base, placement);
@@ -162,6 +161,25 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> E
     let ReferenceSpec { spp, replicates, truth } = spec.reference;
     let reference = ReferencePlan { spp, replicates, truth };
     world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+}
+
+/// One prefilter a method; those that differ in their lookup alone are built once.
+fn spawn_prefilters(
+    world: &mut World,
+    spec: &Spec,
+    strategies: &[Entity],
+    of: impl Fn(Entity) -> PrefilterOf,
+) -> Vec<Entity> {
+    let methods = &spec.sweep.methods;
+    let mut all: Vec<Entity> = Vec::with_capacity(methods.len());
+    for (k, (method, &strategy)) in methods.iter().zip(strategies).enumerate() {
+        let entity = world.spawn((of(strategy), LookupBy(method.lookup))).id();
+        if let Some(other) = methods[..k].iter().position(|other| other.same_filter(method)) {
+            world.entity_mut(entity).insert(SameAs(all[other]));
+        }
+        all.push(entity);
+    }
+    all
 }
 
 fn spawn_trials(

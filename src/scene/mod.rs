@@ -18,7 +18,7 @@ mod texture;
 mod trial;
 
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
-pub use prefilter::{BuildCost, Prefilter, PrefilterOf, Strategy};
+pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
 pub use shelf::Shelf;
 pub use texture::{BumpSource, LoadError, Map, Texture};
