@@ -5,15 +5,16 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    AxesSpec, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec, Spec,
-    SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
+    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
+use crate::light::environment::{Environment, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
+    BumpSource, CameraPose, LightOrigin, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
     ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
 };
 use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
@@ -89,7 +90,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
     let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
-    let light = world.spawn(LightSource(lit(&spec.light))).id();
+    let light = spawn_light(world, &spec.light);
     let placements: Vec<Placement> = placements(spec)
         .into_iter()
         .map(|(pose, tiling)| Placement::spawn(world, pose, tiling))
@@ -247,13 +248,41 @@ fn shape(spec: &SurfaceSpec) -> Shape {
     }
 }
 
-fn lit(spec: &LightSpec) -> Light {
-    match *spec {
+fn spawn_light(world: &mut World, spec: &LightSpec) -> Entity {
+    let spec = spec.clone();
+    match spec {
         LightSpec::Directional { elevation, azimuth, irradiance } => {
-            Light::Directional { direction: direction(elevation, azimuth), irradiance }
+            let direction = direction(elevation, azimuth);
+            world.spawn(LightSource(Light::Directional { direction, irradiance })).id()
         }
         LightSpec::Point { position: [x, y, z], intensity } => {
-            Light::Point { position: crate::geometry::Vec3::new(x, y, z), intensity }
+            let position = crate::geometry::Vec3::new(x, y, z);
+            world.spawn(LightSource(Light::Point { position, intensity })).id()
+        }
+        LightSpec::Environment { source, rotation, intensity, filter } => {
+            let origin = LightOrigin(Box::new(move || {
+                let environment = Arc::new(surroundings(&source, rotation, intensity)?);
+                Ok(Light::Environment { environment, filter })
+            }));
+            world.spawn(origin).id()
+        }
+    }
+}
+
+/// Makes or reads an environment.
+fn surroundings(
+    source: &EnvironmentSource,
+    rotation: f64,
+    intensity: f64,
+) -> Result<Environment, LoadError> {
+    match source {
+        EnvironmentSource::Map { name, width, values } => {
+            let entry = maps::find(name).expect("the spec names registered maps");
+            let radiance = (entry.build)(values);
+            Ok(Environment::of(&radiance, width / 2, rotation, intensity))
+        }
+        EnvironmentSource::File { path } => {
+            read(path, rotation, intensity).map_err(|error| LoadError(error.to_string()))
         }
     }
 }

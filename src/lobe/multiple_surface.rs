@@ -3,7 +3,9 @@
 use arrayvec::ArrayVec;
 
 use super::vector::V3;
-use super::{EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, Shading, Spread};
+use super::{
+    EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, Shading, Slopes, Spread,
+};
 
 /// The most lobes a footprint can have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2 levels,
 /// and the unfiltered lobe that magnification blends in.
@@ -57,6 +59,15 @@ impl Spread for Lobe {
             Self::Peak(lobe) => lobe.facet(),
             Self::Pedal(lobe) => lobe.facet(),
             Self::Restricted(lobe) => lobe.facet(),
+        }
+    }
+
+    fn slopes(&self) -> Slopes {
+        match self {
+            Self::Elliptic(lobe) => lobe.slopes(),
+            Self::Peak(lobe) => lobe.slopes(),
+            Self::Pedal(lobe) => lobe.slopes(),
+            Self::Restricted(lobe) => lobe.slopes(),
         }
     }
 }

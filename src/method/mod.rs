@@ -9,6 +9,7 @@ mod batch;
 mod constant;
 pub mod fournier;
 mod lean;
+mod mean_normal;
 mod nearness;
 mod olano_north;
 mod one_lobe;
@@ -21,6 +22,7 @@ mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
 pub use constant::Constant;
+pub use mean_normal::MeanNormals;
 pub use registry::{Entry, brute_force, build, entries, find};
 pub use truth::{Truth, truth};
 

@@ -43,7 +43,8 @@ pub const ENTRY: Entry = Entry {
 };
 
 fn build(width: usize, height: usize, values: &Values, seed: u64) -> Bumps {
-    let [length, deviation, density] = ["length", "breadth", "density"].map(|key| values.number(key));
+    let [length, deviation, density] =
+        ["length", "breadth", "density"].map(|key| values.number(key));
     let mut random = uniform(seed);
     let mut points = vec![[0.0; 3]; width * height];
     let count = (density * (width * height) as f64 / length).ceil() as usize;
