@@ -5,19 +5,20 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec, Spec,
-    TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
+    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
+use crate::light::environment::{Environment, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, LightSource, LoadError, LookupBy, Material, PrefilterOf, ProbePlan,
-    ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling,
-    TrialOf,
+    BumpSource, CameraPose, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
+    ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture,
+    Tiling, TrialOf,
 };
-use crate::surface::{Plane, Shape, Sphere, drapery};
+use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -89,8 +90,8 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .iter()
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
-    let surface = world.spawn(SurfaceShape(shape(spec.surface))).id();
-    let light = world.spawn(LightSource(lit(&spec.light))).id();
+    let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
+    let light = spawn_light(world, &spec.light);
     let placements: Vec<Placement> = placements(spec)
         .into_iter()
         .map(|(pose, tiling)| Placement::spawn(world, pose, tiling))
@@ -139,8 +140,8 @@ impl Placement {
 fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
     let pose = |distance: f64| {
         let (at, image) = (&spec.camera, &spec.image);
-        let camera =
-            Camera::orbiting(distance, at.elevation, at.azimuth, at.fov, image.width, image.height);
+        let origin = direction(at.elevation, at.azimuth) * distance;
+        let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
         CameraPose { camera, distance }
     };
     match &spec.sweep.scale {
@@ -244,21 +245,62 @@ fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
     }
 }
 
-fn shape(spec: ShapeSpec) -> Shape {
-    match spec {
+fn shape(spec: &SurfaceSpec) -> Shape {
+    let frame = match spec.axes {
+        AxesSpec::Sphere => WavyFrame::Sphere,
+        AxesSpec::Natural | AxesSpec::MainDirection(_) => WavyFrame::Vertex,
+    };
+    let shape = match spec.shape {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
         ShapeSpec::Drapery => Shape::Drapery(drapery()),
+        ShapeSpec::WavySphere(wavy) => {
+            Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
+        }
+    };
+    match spec.axes {
+        AxesSpec::MainDirection(main) => {
+            Shape::MainDirection(MainDirection::new(shape, main.into()))
+        }
+        AxesSpec::Natural | AxesSpec::Sphere => shape,
     }
 }
 
-fn lit(spec: &LightSpec) -> Light {
-    match *spec {
+fn spawn_light(world: &mut World, spec: &LightSpec) -> Entity {
+    let spec = spec.clone();
+    match spec {
         LightSpec::Directional { elevation, azimuth, irradiance } => {
-            Light::Directional { direction: direction(elevation, azimuth), irradiance }
+            let direction = direction(elevation, azimuth);
+            world.spawn(LightSource(Light::Directional { direction, irradiance })).id()
         }
         LightSpec::Point { position: [x, y, z], intensity } => {
-            Light::Point { position: crate::geometry::Vec3::new(x, y, z), intensity }
+            let position = crate::geometry::Vec3::new(x, y, z);
+            world.spawn(LightSource(Light::Point { position, intensity })).id()
+        }
+        LightSpec::Environment { source, rotation, intensity, filter } => {
+            let origin = LightOrigin(Box::new(move || {
+                let environment = Arc::new(surroundings(&source, rotation, intensity)?);
+                Ok(Light::Environment { environment, filter })
+            }));
+            world.spawn(origin).id()
+        }
+    }
+}
+
+/// Makes or reads an environment.
+fn surroundings(
+    source: &EnvironmentSource,
+    rotation: f64,
+    intensity: f64,
+) -> Result<Environment, LoadError> {
+    match source {
+        EnvironmentSource::Map { name, width, values } => {
+            let entry = maps::find(name).expect("the spec names registered maps");
+            let radiance = (entry.build)(values);
+            Ok(Environment::of(&radiance, width / 2, rotation, intensity))
+        }
+        EnvironmentSource::File { path } => {
+            read(path, rotation, intensity).map_err(|error| LoadError(error.to_string()))
         }
     }
 }

@@ -1,7 +1,9 @@
 //! A multiple surface: more than one normal at a point (Fournier 1992 §4).
 
 use super::vector::V3;
-use super::{EllipticLobe, Facet, Horizon, PearsonLobe, PedalLobe, PhongPeak, Shading, Spread};
+use super::{
+    EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, Shading, Slopes, Spread,
+};
 
 /// The most lobes a surface from a file may have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2
 /// levels, and one more. Only footprints under wide lookups have more.
@@ -17,7 +19,7 @@ pub enum Lobe {
     /// Schilling's lobe as printed.
     Pedal(PedalLobe),
     /// Olano and North's lobe as printed.
-    Pearson(PearsonLobe),
+    Restricted(RestrictedLobe),
 }
 
 impl Lobe {
@@ -29,7 +31,7 @@ impl Lobe {
                 Self::Peak(PhongPeak { amplitude: peak.amplitude * factor, ..peak })
             }
             Self::Pedal(lobe) => Self::Pedal(lobe.faded(factor)),
-            Self::Pearson(lobe) => Self::Pearson(lobe.faded(factor)),
+            Self::Restricted(lobe) => Self::Restricted(lobe.faded(factor)),
         }
     }
 
@@ -45,7 +47,7 @@ impl Spread for Lobe {
             Self::Elliptic(lobe) => lobe.density(h),
             Self::Peak(lobe) => lobe.density(h),
             Self::Pedal(lobe) => lobe.density(h),
-            Self::Pearson(lobe) => lobe.density(h),
+            Self::Restricted(lobe) => lobe.density(h),
         }
     }
 
@@ -54,7 +56,16 @@ impl Spread for Lobe {
             Self::Elliptic(lobe) => lobe.facet(),
             Self::Peak(lobe) => lobe.facet(),
             Self::Pedal(lobe) => lobe.facet(),
-            Self::Pearson(lobe) => lobe.facet(),
+            Self::Restricted(lobe) => lobe.facet(),
+        }
+    }
+
+    fn slopes(&self) -> Slopes {
+        match self {
+            Self::Elliptic(lobe) => lobe.slopes(),
+            Self::Peak(lobe) => lobe.slopes(),
+            Self::Pedal(lobe) => lobe.slopes(),
+            Self::Restricted(lobe) => lobe.slopes(),
         }
     }
 }
@@ -68,7 +79,7 @@ macro_rules! lobe_from {
         }
     )*};
 }
-lobe_from!(Elliptic(EllipticLobe), Peak(PhongPeak), Pedal(PedalLobe), Pearson(PearsonLobe));
+lobe_from!(Elliptic(EllipticLobe), Peak(PhongPeak), Pedal(PedalLobe), Restricted(RestrictedLobe));
 
 /// What a filter makes of a footprint: lobes whose densities add. Lobes may have
 /// horizons, which matter to the light they send ([`MultipleSurface::radiance`]) but not to what they

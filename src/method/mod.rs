@@ -9,16 +9,20 @@ mod batch;
 mod constant;
 pub mod fournier;
 mod lean;
+mod mean_normal;
+mod nearness;
 mod olano_north;
 mod one_lobe;
 mod registry;
 mod schilling;
+mod storage;
 mod toksvig;
 mod truth;
 mod unfiltered;
 
 pub use batch::{BATCH, Batch, Lane};
 pub use constant::Constant;
+pub use mean_normal::MeanNormals;
 pub use registry::{Entry, brute_force, build, entries, find};
 pub use truth::{Truth, truth};
 

@@ -52,7 +52,7 @@ impl Portrait {
         let view = View {
             camera: self.camera,
             surface: self.shape.clone(),
-            light: self.light,
+            light: self.light.clone(),
             shading: self.shading,
             wrap: Wrap::Repeat,
             lookup: crate::texture::Lookup::default(),

@@ -1,6 +1,6 @@
 //! What is seen: a surface under a light before a camera.
 
-use crate::geometry::{Kernel, Vec3, vectorised};
+use crate::geometry::{Frame, Kernel, Vec3, vectorised};
 use crate::light::Light;
 use crate::lobe::Shading;
 use crate::method::{BATCH, Batch};
@@ -30,14 +30,21 @@ pub struct View {
 impl View {
     /// The footprint of a whole pixel at image point (x, y); None where the ray misses.
     pub fn footprint(&self, x: f64, y: f64) -> Option<Footprint> {
+        self.sight(x, y, 1.0).map(|sight| sight.footprint)
+    }
+
+    /// What the ray through image point (x, y) meets, for a sample that stands for the part `spacing` of a
+    /// pixel's side; None where it misses.
+    pub(super) fn sight(&self, x: f64, y: f64, spacing: f64) -> Option<Sight> {
         let (camera, ray) = (&self.camera, self.camera.ray(x, y));
         let hit = self.surface.intersect(camera.origin(), ray)?;
         let [along_x, along_y] = camera.ray_steps().map(|step| {
-            let moved = displacement(ray, step, hit.t, hit.plane);
-            hit.gradient.map(|g| g.dot(&moved) as f32)
+            let moved = displacement(ray, step, hit.t, hit.plane) * spacing;
+            hit.gradient.map(|g| held(g.dot(&moved)))
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
-        Some(Footprint { u, v, along_x, along_y, lookup: self.lookup })
+        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup };
+        Some(Sight { footprint, frame: hit.frame, view: -ray.normalize() })
     }
 
     /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`). With
@@ -66,6 +73,16 @@ impl View {
     }
 }
 
+/// A point that a ray met.
+pub(super) struct Sight {
+    /// What the sample covers of the map.
+    pub footprint: Footprint,
+    /// The tangent space there, in the world.
+    pub frame: Frame,
+    /// Unit direction to the eye, world space.
+    pub view: Vec3,
+}
+
 /// Image points on their way to a batch.
 struct Points<'a> {
     view: &'a View,
@@ -81,12 +98,18 @@ impl Points<'_> {
             Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*plane),
             Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*sphere),
             Shape::Drapery(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
+            Shape::WavySphere(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
+            Shape::MainDirection(any) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
         }
     }
 
     fn lit<S: Surface, const DIRECTIONS: bool, const FOOTPRINTS: bool>(self, surface: S) {
-        match self.view.light {
-            Light::Directional { direction, irradiance } => {
+        match &self.view.light {
+            Light::Environment { .. } => {
+                let light = |_: Vec3| (Vec3::z(), 0.0);
+                vectorised(Fill::<_, _, DIRECTIONS, FOOTPRINTS> { points: self, surface, light });
+            }
+            &Light::Directional { direction, irradiance } => {
                 let light = move |_: Vec3| (direction, irradiance);
                 vectorised(Fill::<_, _, DIRECTIONS, FOOTPRINTS> { points: self, surface, light });
             }
@@ -138,12 +161,20 @@ where
                 for (axis, step) in steps.iter().enumerate() {
                     let moved = displacement(ray, *step, hit.t, hit.plane) * spacing;
                     for c in 0..2 {
-                        batch.jacobian[2 * axis + c][i] = hit.gradient[c].dot(&moved) as f32;
+                        batch.jacobian[2 * axis + c][i] = held(hit.gradient[c].dot(&moved));
                     }
                 }
             }
         }
     }
+}
+
+/// The side of a footprint, in tiles, held to what no map can tell from all of itself: near a horizon it grows
+/// without bound, and products of sides must stay finite in single precision.
+#[inline(always)]
+fn held(tiles: f64) -> f32 {
+    const WIDEST: f64 = 1e5;
+    tiles.clamp(-WIDEST, WIDEST) as f32
 }
 
 /// Writes a vector into lane `i`.

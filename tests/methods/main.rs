@@ -5,6 +5,7 @@
 mod base;
 mod bumps;
 mod energy;
+mod environment;
 mod fast;
 mod fixture;
 mod flat;
