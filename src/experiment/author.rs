@@ -5,8 +5,8 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec,
-    Spec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
+    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
@@ -14,11 +14,11 @@ use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, Material, PrefilterOf,
-    ProbePlan, ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling,
-    TrialOf,
+    BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
+    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
+    Texture, Tiling, TrialOf,
 };
-use crate::surface::{Plane, Shape, Sphere, drapery};
+use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -90,7 +90,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .iter()
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
-    let surface = world.spawn(SurfaceShape(shape(spec.surface))).id();
+    let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
     let light = spawn_light(world, &spec.light);
     let placements: Vec<Placement> = placements(spec)
         .into_iter()
@@ -101,10 +101,8 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     for (index, &texture) in plan.textures.iter().enumerate() {
         let texture_key = super::keys::texture(&spec.sweep.textures[index]);
         for &(base, material) in &materials {
-            let prefilters: Vec<Entity> = strategies
-                .iter()
-                .map(|&strategy| world.spawn(PrefilterOf { texture, strategy, material }).id())
-                .collect();
+            let of = |strategy| PrefilterOf { texture, strategy, material };
+            let prefilters = spawn_prefilters(world, spec, &strategies, of);
             for placement in &placements {
                 let of = SceneOf { texture, surface, camera: placement.camera, light, material };
                 let slug = slug(spec, index, &base, placement);
@@ -142,8 +140,8 @@ impl Placement {
 fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
     let pose = |distance: f64| {
         let (at, image) = (&spec.camera, &spec.image);
-        let camera =
-            Camera::orbiting(distance, at.elevation, at.azimuth, at.fov, image.width, image.height);
+        let origin = direction(at.elevation, at.azimuth) * distance;
+        let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
         CameraPose { camera, distance }
     };
     match &spec.sweep.scale {
@@ -164,6 +162,25 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> E
     let ReferenceSpec { spp, replicates, truth } = spec.reference;
     let reference = ReferencePlan { spp, replicates, truth };
     world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+}
+
+/// One prefilter a method; those that differ in their lookup alone are built once.
+fn spawn_prefilters(
+    world: &mut World,
+    spec: &Spec,
+    strategies: &[Entity],
+    of: impl Fn(Entity) -> PrefilterOf,
+) -> Vec<Entity> {
+    let methods = &spec.sweep.methods;
+    let mut all: Vec<Entity> = Vec::with_capacity(methods.len());
+    for (k, (method, &strategy)) in methods.iter().zip(strategies).enumerate() {
+        let entity = world.spawn((of(strategy), LookupBy(method.lookup))).id();
+        if let Some(other) = methods[..k].iter().position(|other| other.same_filter(method)) {
+            world.entity_mut(entity).insert(SameAs(all[other]));
+        }
+        all.push(entity);
+    }
+    all
 }
 
 fn spawn_trials(
@@ -228,11 +245,24 @@ fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
     }
 }
 
-fn shape(spec: ShapeSpec) -> Shape {
-    match spec {
+fn shape(spec: &SurfaceSpec) -> Shape {
+    let frame = match spec.axes {
+        AxesSpec::Sphere => WavyFrame::Sphere,
+        AxesSpec::Natural | AxesSpec::MainDirection(_) => WavyFrame::Vertex,
+    };
+    let shape = match spec.shape {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
         ShapeSpec::Drapery => Shape::Drapery(drapery()),
+        ShapeSpec::WavySphere(wavy) => {
+            Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
+        }
+    };
+    match spec.axes {
+        AxesSpec::MainDirection(main) => {
+            Shape::MainDirection(MainDirection::new(shape, main.into()))
+        }
+        AxesSpec::Natural | AxesSpec::Sphere => shape,
     }
 }
 

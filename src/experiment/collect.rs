@@ -13,6 +13,7 @@ use super::store::{PrefilterRecord, ProbeRecord, Store};
 use crate::lobe::{Shading, Spread};
 use crate::metric;
 use crate::scene::{Exposure, Probes, ReferenceImage, Scores, Stagehand, Tiling};
+use crate::texture::Lookup;
 use crate::texture::image_file::{Preview, preview};
 
 /// Gathers what a finished run has found, and fills in `costs`.
@@ -105,13 +106,13 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
     // A plane's tiling meets the wish to rounding. A sphere's is rounded to close its seam, and a moving
     // camera has no wish: there the first probe tells, at the pixel beside the image's centre.
     let measured = probes.first().map_or(f64::NAN, |probe| probe.texels_across);
-    let texels_per_pixel = match (spec.surface, scene.tiling) {
+    let texels_per_pixel = match (spec.surface.shape, scene.tiling) {
         (Shape::Plane, Tiling::TexelsPerPixel(wish)) => wish,
         _ => (measured * 1e4).round() / 1e4,
     };
     SceneKey {
         texture: spec.sweep.textures[scene.texture].name.clone(),
-        surface: spec.surface.name().to_owned(),
+        surface: spec.surface.shape.name().to_owned(),
         light: spec.light.name().to_owned(),
         lobe: scene.base.name().to_owned(),
         parameter: scene.base.parameter(),
@@ -175,7 +176,12 @@ pub(super) fn known_scores(scores: &[Score]) -> Scores {
 }
 
 fn describe_method(spec: &super::spec::MethodSpec) -> MethodInfo {
-    let card = spec.build().card();
+    let method = spec.build();
+    let card = method.card();
+    let lookup = (!method.lookups().is_empty()).then_some(spec.lookup);
+    let options = spec.values.iter().map(|(name, value)| format!("{name} = {value}"));
+    let named = |lookup: &Lookup| *lookup != Lookup::default();
+    let by = lookup.filter(named).map(|lookup| format!("lookup = {}", lookup.name()));
     MethodInfo {
         label: spec.label.clone(),
         name: card.name.to_owned(),
@@ -184,7 +190,8 @@ fn describe_method(spec: &super::spec::MethodSpec) -> MethodInfo {
         formula: card.formula.to_owned(),
         limits: card.limits.to_owned(),
         normalised: card.normalised,
-        options: spec.values.iter().map(|(name, value)| format!("{name} = {value}")).collect(),
+        options: options.chain(by).collect(),
+        lookup,
     }
 }
 

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::method::Truth;
 use crate::render::Film;
+use crate::texture::Lookup;
 
 /// All that one run of an experiment found, apart from what it cost.
 #[derive(Clone, Debug)]
@@ -47,8 +48,10 @@ pub struct MethodInfo {
     pub limits: String,
     /// Whether it keeps the footprint's energy.
     pub normalised: bool,
-    /// Its options as `name = value`, in alphabetical order.
+    /// Its options as `name = value`, in alphabetical order, then its lookup if it is not trilinear.
     pub options: Vec<String>,
+    /// How it looks up what lies under a footprint, if it does.
+    pub lookup: Option<Lookup>,
 }
 
 /// A texture as the experiment used it.
@@ -85,7 +88,7 @@ pub struct Picture {
 pub struct SceneKey {
     /// Texture name.
     pub texture: String,
-    /// Surface name: `plane` or `sphere`.
+    /// Surface name: `plane`, `sphere`, `drapery` or `wavy-sphere`.
     pub surface: String,
     /// Light name: `directional` or `point`.
     pub light: String,
@@ -97,7 +100,7 @@ pub struct SceneKey {
     pub shading: String,
     /// Texels across a pixel at the image's centre: the square root of the footprint's area.
     pub texels_per_pixel: f64,
-    /// Distance from the camera to the point it looks at, scene units.
+    /// Distance from the camera to the origin, scene units.
     pub distance: f64,
 }
 

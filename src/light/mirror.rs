@@ -71,7 +71,7 @@ pub fn mirrored(
         let slopes = lobe.slopes();
         moments += f64::from(dot(slopes.moment(), view));
         let eye = slopes.local(view).map(f64::from);
-        for (share, covariance) in slopes.gaussians() {
+        for &(share, covariance) in slopes.gaussians().iter() {
             let weight = f64::from(slopes.amplitude * share);
             let Some(patch) = Patch::of(slopes.mean, covariance, eye) else {
                 continue;

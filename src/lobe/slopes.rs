@@ -1,7 +1,5 @@
 //! A lobe as a distribution of slopes: its moment, and the Gaussians it is mixed of.
 
-use arrayvec::ArrayVec;
-
 use super::vector::{Sym2, V3, dot, times};
 use super::{Profile, Spread};
 use crate::geometry::elementary::ln32;
@@ -32,6 +30,28 @@ pub const GAUSSIANS: usize = 4;
 /// One of the Gaussians of a lobe's slopes: its share (all sum to 1) and its covariance.
 pub type Gaussian = (f32, Sym2);
 
+/// A few of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gaussians {
+    all: [Gaussian; GAUSSIANS],
+    count: usize,
+}
+
+impl Gaussians {
+    fn push(&mut self, gaussian: Gaussian) {
+        self.all[self.count] = gaussian;
+        self.count += 1;
+    }
+}
+
+impl std::ops::Deref for Gaussians {
+    type Target = [Gaussian];
+
+    fn deref(&self) -> &[Gaussian] {
+        &self.all[..self.count]
+    }
+}
+
 /// Shares of the mixing distribution from its low end, and the standard normal quantiles of their middles.
 /// Uneven, as the low end holds the lobe's far tail.
 const SHARES: [(f32, f32); GAUSSIANS] =
@@ -52,8 +72,8 @@ impl Slopes {
     /// α² I/W. W is taken at a few quantiles (Wilson and Hilferty 1931; exact for ν = 2). With 4 of
     /// them the part of a GGX lobe within any angle is right to 0.018. The larger ν, the nearer W is to
     /// its mean and the fewer are needed.
-    pub fn gaussians(&self) -> ArrayVec<Gaussian, GAUSSIANS> {
-        let mut all = ArrayVec::new();
+    pub fn gaussians(&self) -> Gaussians {
+        let mut all = Gaussians::default();
         match self.profile {
             Profile::Gaussian => all.push((1.0, self.spread)),
             Profile::Ggx => {
@@ -75,9 +95,9 @@ impl Slopes {
                     // The covariance itself.
                     all.push((1.0, self.spread));
                 } else if nu > 14.0 {
-                    all.extend([-1.0, 1.0].map(|z| (0.5, at(z))));
+                    [-1.0, 1.0].into_iter().for_each(|z| all.push((0.5, at(z))));
                 } else {
-                    all.extend(SHARES.map(|(share, z)| (share, at(z))));
+                    SHARES.into_iter().for_each(|(share, z)| all.push((share, at(z))));
                 }
             }
         }
@@ -165,7 +185,9 @@ const GAUSS_LEGENDRE: [(f32, f32); 8] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lobe::{BaseLobe, PearsonLobe, PedalLobe, PhongPeak};
+    use crate::lobe::{
+        BaseLobe, Contour, Cut, Fall, Generator, PedalLobe, PhongPeak, RestrictedLobe,
+    };
 
     #[test]
     fn shares_sum_to_one() {
@@ -236,9 +258,17 @@ mod tests {
 
     #[test]
     fn printed_lobes_are_integrated() {
-        let pedal = PedalLobe::new([0.2, 0.0, 1.0], [0.02, 0.01, 0.03], 3.0, 60.0);
-        let inverse = [50.0, 0.0, 0.0, 80.0, 0.0, 50.0];
-        let pearson = PearsonLobe::new([0.0, 0.0, 0.97], inverse, 2.0, 0.02);
+        let fall = Fall::Power { exponent: 60.0 };
+        let covariance = [0.02, 0.01, 0.03];
+        let pedal = PedalLobe::new([0.2, 0.0, 1.0], covariance, 3.0, Contour::Pedal, fall);
+        let cut = Cut {
+            axis: [0.0, 0.0, 1.0],
+            length: 0.97,
+            radial: 0.02,
+            lean: [0.0; 2],
+            across: [0.02, 0.0, 0.0125],
+        };
+        let restricted = RestrictedLobe::new(cut, 2.0, Generator::Pearson { m: 8 });
         let check = |slopes: Slopes, want: [f64; 4]| {
             let [xx, xy, yy] = slopes.spread.map(f64::from);
             assert!(
@@ -250,7 +280,7 @@ mod tests {
             }
         };
         check(pedal.slopes(), fine(&pedal));
-        check(pearson.slopes(), fine(&pearson));
+        check(restricted.slopes(), fine(&restricted));
     }
 
     #[test]

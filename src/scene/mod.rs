@@ -20,7 +20,7 @@ mod trial;
 
 pub use light::{Kindled, LightOrigin};
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
-pub use prefilter::{BuildCost, Prefilter, PrefilterOf, Strategy};
+pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
 pub use shelf::Shelf;
 pub use texture::{BumpSource, LoadError, Map, Texture};

@@ -116,7 +116,7 @@ impl LightSpec {
 fn directional(reader: &Reader, shape: Shape) -> LightSpec {
     let elevation = match shape {
         Shape::Plane => Limits::above(0.0, 90.0),
-        Shape::Sphere | Shape::Drapery => Limits::from_to(-90.0, 90.0),
+        _ => Limits::from_to(-90.0, 90.0),
     };
     LightSpec::Directional {
         elevation: reader.real("elevation", 40.0, elevation.degrees()),
@@ -174,20 +174,17 @@ fn computed(reader: &Reader, map: Option<Item>) -> EnvironmentSource {
 fn position(reader: &Reader, shape: Shape) -> [f64; 3] {
     const DEFAULT: [f64; 3] = [0.0, 2.0, 2.0];
     let Some(item) = reader.item("position") else { return DEFAULT };
-    let read = || {
-        let [x, y, z] = item.tuple("three numbers, [x, y, z]")?;
-        let coordinate = Limits::from_to(-1e6, 1e6);
-        // All three are read before any is missed, so that all errors are told.
-        let [x, y, z] = [x, y, z].map(|c| c.real(coordinate));
-        Some([x?, y?, z?])
-    };
-    let Some([x, y, z]) = read() else { return DEFAULT };
+    let Some([x, y, z]) = item.point() else { return DEFAULT };
     match shape {
         Shape::Plane if z <= 0.0 => {
             item.error(format!("`position` is not above the plane: z is {z}"), None);
         }
         Shape::Sphere if x * x + y * y + z * z <= 1.0 => {
             item.error("`position` is inside the sphere of radius 1".to_owned(), None);
+        }
+        Shape::WavySphere(wavy) if x * x + y * y + z * z <= wavy.outside() * wavy.outside() => {
+            let message = format!("`position` is not outside the crests, at {}", wavy.outside());
+            item.error(message, None);
         }
         _ => {}
     }
