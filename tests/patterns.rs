@@ -89,7 +89,7 @@ fn names_are_unique_and_found() {
 
 #[test]
 fn a_seed_makes_one_map_and_another_seed_another() {
-    for name in ["waves", "gaussian"] {
+    for name in ["waves", "gaussian", "brushed"] {
         let of = |seed| make(name, [32, 20], &[], seed).normals;
         assert_eq!(of(7), of(7));
         assert_ne!(of(7), of(8));
@@ -294,8 +294,14 @@ fn courses_of_bricks_are_shifted_by_half_a_brick() {
 #[test]
 fn heights_belong_to_the_normals() {
     // Central differences of the stored heights come near the stored slopes where waves are long.
-    for name in ["waves", "gaussian"] {
-        let bumps = make(name, [96, 64], &[], 2);
+    for (name, set) in [
+        ("waves", vec![]),
+        ("gaussian", vec![]),
+        ("corrugated", vec![]),
+        ("corrugated", vec![("profile", Value::Word("arcs")), ("axis", Value::Word("u"))]),
+        ("brushed", vec![("width", number(3.0))]),
+    ] {
+        let bumps = make(name, [96, 64], &set, 2);
         let by_difference = NormalMap::from_heights(&bumps.heights.unwrap(), 1.0);
         let worst = by_difference
             .texels()
@@ -349,4 +355,59 @@ fn normals_seen_from_above_are_those_of_the_heights() {
         }
     }
     assert_eq!(seen, 9 * 32 * 32);
+}
+
+#[test]
+fn corrugated_sheet_has_the_slopes_of_its_profile() {
+    // A cosine of depth d a pitch has slopes of mean square (π d)²/2; texels of whole pitches meet it exactly.
+    // Arcs of radius R = (1/16 + s²)/2s, s = d/2, over chords of half a pitch: the mean of x²/(R² − x²) over
+    // |x| < ¼, which is R/¼ artanh(¼/R) − 1.
+    let depth = 0.3;
+    let radius: f64 = (0.0625 + depth * depth / 4.0) / depth;
+    let arcs = 4.0 * radius * (0.25 / radius).atanh() - 1.0;
+    let sine = (std::f64::consts::PI * depth).powi(2) / 2.0;
+    for (profile, want, within) in [("sine", sine, 1e-5), ("arcs", arcs, 1e-4)] {
+        for (axis, along) in [("v", 1), ("u", 0)] {
+            let set = [
+                ("depth", number(depth)),
+                ("profile", Value::Word(profile)),
+                ("axis", Value::Word(axis)),
+                ("count", number(2.0)),
+            ];
+            let bumps = make("corrugated", [256, 256], &set, 0);
+            let square = |axis: usize| slope_mean(&bumps.normals, |x, y| [x, y][axis].powi(2));
+            assert!((square(1 - along) - want).abs() < within, "{profile} {axis} {want}");
+            assert_eq!(square(along), 0.0);
+            let [low, high] = bumps.heights.unwrap().range();
+            assert!((high - low - depth * 128.0).abs() < 0.05, "{low} {high}");
+        }
+    }
+}
+
+#[test]
+fn brushed_metal_is_rough_across_its_scratches_alone() {
+    for seed in 0..3 {
+        let map = make("brushed", [256, 128], &[("slope", number(0.3))], seed).normals;
+        let across = slope_mean(&map, |_, y| y * y);
+        assert!((across - 0.09).abs() < 1e-6, "{across}");
+        // A groove of deviation w and length ℓ slopes along itself by π/ℓ · w of what it does across, and
+        // shorter ones more: below a tenth.
+        let along = slope_mean(&map, |x, _| x * x);
+        assert!(along > 0.0 && along < 0.01 * across, "{along}");
+        assert!(slope_mean(&map, |x, _| x).abs() < 1e-6 && slope_mean(&map, |_, y| y).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_wavy_sphere_is_steepest_where_its_ripples_are() {
+    // Rings about the x axis: on the equator at longitude α the slope along u is −h k sin(k α)/r towards +x.
+    let set = [("ripples", number(6.0)), ("amplitude", number(0.1))];
+    let map = make("wavy-sphere", [240, 121], &set, 0).normals;
+    for i in 0..240 {
+        let angle = std::f64::consts::TAU * (f64::from(i) + 0.5) / 240.0;
+        let radius = 1.0 + 0.1 * (6.0 * angle).cos();
+        let slope = -0.1 * 6.0 * (6.0 * angle).sin() / radius;
+        let [x, y, z, _] = map.texel(i as usize, 60).map(f64::from);
+        assert!((-x / z - slope).abs() < 1e-5 && y.abs() < 1e-6, "{i}: {} {slope}", -x / z);
+    }
 }

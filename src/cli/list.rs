@@ -12,10 +12,11 @@ use crate::parameter::{Domain, Parameter};
 use crate::{lobe, method, pattern};
 
 /// Surfaces, with what they are.
-const SURFACES: [(&str, &str); 3] = [
+const SURFACES: [(&str, &str); 4] = [
     ("plane", "the plane z = 0, tiled without end"),
     ("sphere", "the unit sphere, u along longitude and v along latitude"),
     ("drapery", "a coarse cloth that hangs in folds, u across them and v up"),
+    ("wavy-sphere", "a sphere whose radius ripples, as a mesh of as many cells as asked for"),
 ];
 
 /// Prints experiments, methods, patterns, surfaces and multiple surfaces.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec, Spec,
-    TextureSource, TextureSpec,
+    AxesSpec, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec, Spec,
+    SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::lobe::BaseLobe;
@@ -16,7 +16,7 @@ use crate::scene::{
     BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
     ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
 };
-use crate::surface::{Plane, Shape, Sphere, drapery};
+use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -88,7 +88,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .iter()
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
-    let surface = world.spawn(SurfaceShape(shape(spec.surface))).id();
+    let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
     let light = world.spawn(LightSource(lit(&spec.light))).id();
     let placements: Vec<Placement> = placements(spec)
         .into_iter()
@@ -140,8 +140,8 @@ impl Placement {
 fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
     let pose = |distance: f64| {
         let (at, image) = (&spec.camera, &spec.image);
-        let camera =
-            Camera::orbiting(distance, at.elevation, at.azimuth, at.fov, image.width, image.height);
+        let origin = direction(at.elevation, at.azimuth) * distance;
+        let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
         CameraPose { camera, distance }
     };
     match &spec.sweep.scale {
@@ -226,11 +226,24 @@ fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
     }
 }
 
-fn shape(spec: ShapeSpec) -> Shape {
-    match spec {
+fn shape(spec: &SurfaceSpec) -> Shape {
+    let frame = match spec.axes {
+        AxesSpec::Sphere => WavyFrame::Sphere,
+        AxesSpec::Natural | AxesSpec::MainDirection(_) => WavyFrame::Vertex,
+    };
+    let shape = match spec.shape {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
         ShapeSpec::Drapery => Shape::Drapery(drapery()),
+        ShapeSpec::WavySphere(wavy) => {
+            Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
+        }
+    };
+    match spec.axes {
+        AxesSpec::MainDirection(main) => {
+            Shape::MainDirection(MainDirection::new(shape, main.into()))
+        }
+        AxesSpec::Natural | AxesSpec::Sphere => shape,
     }
 }
 

@@ -105,13 +105,13 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
     // A plane's tiling meets the wish to rounding. A sphere's is rounded to close its seam, and a moving
     // camera has no wish: there the first probe tells, at the pixel beside the image's centre.
     let measured = probes.first().map_or(f64::NAN, |probe| probe.texels_across);
-    let texels_per_pixel = match (spec.surface, scene.tiling) {
+    let texels_per_pixel = match (spec.surface.shape, scene.tiling) {
         (Shape::Plane, Tiling::TexelsPerPixel(wish)) => wish,
         _ => (measured * 1e4).round() / 1e4,
     };
     SceneKey {
         texture: spec.sweep.textures[scene.texture].name.clone(),
-        surface: spec.surface.name().to_owned(),
+        surface: spec.surface.shape.name().to_owned(),
         light: spec.light.name().to_owned(),
         lobe: scene.base.name().to_owned(),
         parameter: scene.base.parameter(),

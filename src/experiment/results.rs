@@ -85,7 +85,7 @@ pub struct Picture {
 pub struct SceneKey {
     /// Texture name.
     pub texture: String,
-    /// Surface name: `plane` or `sphere`.
+    /// Surface name: `plane`, `sphere`, `drapery` or `wavy-sphere`.
     pub surface: String,
     /// Light name: `directional` or `point`.
     pub light: String,
@@ -97,7 +97,7 @@ pub struct SceneKey {
     pub shading: String,
     /// Texels across a pixel at the image's centre: the square root of the footprint's area.
     pub texels_per_pixel: f64,
-    /// Distance from the camera to the point it looks at, scene units.
+    /// Distance from the camera to the origin, scene units.
     pub distance: f64,
 }
 

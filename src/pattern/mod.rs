@@ -1,6 +1,8 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
 mod bricks;
+mod brushed;
+mod corrugated;
 mod cylinders;
 pub mod file;
 mod flat;
@@ -12,6 +14,7 @@ mod spectrum;
 mod twill;
 mod view;
 mod waves;
+mod wavy_sphere;
 
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
@@ -55,11 +58,14 @@ pub fn entries() -> Vec<Entry> {
         flat::ENTRY,
         hemispheres::ENTRY,
         cylinders::ENTRY,
+        corrugated::ENTRY,
         twill::ENTRY,
         grid::ENTRY,
         bricks::ENTRY,
         waves::ENTRY,
         gaussian::ENTRY,
+        brushed::ENTRY,
+        wavy_sphere::ENTRY,
     ]
 }
 

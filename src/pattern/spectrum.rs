@@ -66,6 +66,11 @@ impl Field {
         Self { width, height, points: (0..width * height).map(point).collect() }
     }
 
+    /// A field of these points, in lines of `width`.
+    pub fn from_points(width: usize, points: Vec<[f64; 3]>) -> Self {
+        Self { width, height: points.len() / width, points }
+    }
+
     /// Mean over the texels of the squared slope along x and along y.
     pub fn mean_square_slopes(&self) -> [f64; 2] {
         let count = self.points.len() as f64;

@@ -20,7 +20,7 @@ pub struct Camera {
 impl Camera {
     /// A camera at `origin` that looks at `target`, z up, with a vertical field of view of
     /// `fov_degrees` in (0, 180), and an image of `width` × `height` square pixels. Looking straight
-    /// up or down, the top of the image is +y.
+    /// up or down, the top of the image is +y. A target where the camera is gives a camera that looks down.
     pub fn look_at(
         origin: Vec3,
         target: Vec3,
@@ -28,7 +28,7 @@ impl Camera {
         width: usize,
         height: usize,
     ) -> Self {
-        let forward = (target - origin).normalize();
+        let forward = (target - origin).try_normalize(1e-12).unwrap_or(-Vec3::z());
         let level = forward.cross(&Vec3::z());
         let side = if level.norm() > 1e-9 { level.normalize() } else { Vec3::x() };
         let up = side.cross(&forward);

@@ -32,7 +32,7 @@ impl View {
         let hit = self.surface.intersect(camera.origin(), ray)?;
         let [along_x, along_y] = camera.ray_steps().map(|step| {
             let moved = displacement(ray, step, hit.t, hit.plane);
-            hit.gradient.map(|g| g.dot(&moved) as f32)
+            hit.gradient.map(|g| held(g.dot(&moved)))
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
         Some(Footprint { u, v, along_x, along_y })
@@ -78,6 +78,8 @@ impl Points<'_> {
             Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*plane),
             Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*sphere),
             Shape::Drapery(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
+            Shape::WavySphere(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
+            Shape::MainDirection(any) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
         }
     }
 
@@ -135,12 +137,20 @@ where
                 for (axis, step) in steps.iter().enumerate() {
                     let moved = displacement(ray, *step, hit.t, hit.plane) * spacing;
                     for c in 0..2 {
-                        batch.jacobian[2 * axis + c][i] = hit.gradient[c].dot(&moved) as f32;
+                        batch.jacobian[2 * axis + c][i] = held(hit.gradient[c].dot(&moved));
                     }
                 }
             }
         }
     }
+}
+
+/// The side of a footprint, in tiles, held to what no map can tell from all of itself: near a horizon it grows
+/// without bound, and products of sides must stay finite in single precision.
+#[inline(always)]
+fn held(tiles: f64) -> f32 {
+    const WIDEST: f64 = 1e5;
+    tiles.clamp(-WIDEST, WIDEST) as f32
 }
 
 /// Writes a vector into lane `i`.

@@ -3,15 +3,19 @@
 //! A surface answers, for a ray, where it is hit, the texture coordinates there, how they change over
 //! the surface, and the tangent frame.
 
+mod axes;
 mod drapery;
 mod mesh;
 mod plane;
 mod sphere;
+mod wavy_sphere;
 
+pub use axes::{Axes, MainDirection, along_main_direction};
 pub use drapery::drapery;
 pub use mesh::{Mesh, Vertex};
 pub use plane::Plane;
 pub use sphere::Sphere;
+pub use wavy_sphere::{WavyFrame, WavySphere};
 
 use crate::geometry::{Frame, Vec3};
 
@@ -72,6 +76,23 @@ pub enum Shape {
     Sphere(Sphere),
     /// The hanging cloth.
     Drapery(Mesh),
+    /// The rippled sphere.
+    WavySphere(WavySphere),
+    /// Any of these with a main direction for its bumps.
+    MainDirection(MainDirection),
+}
+
+/// Does the same with whichever surface a shape is.
+macro_rules! with {
+    ($shape:expr, $surface:ident => $does:expr) => {
+        match $shape {
+            Shape::Plane($surface) => $does,
+            Shape::Sphere($surface) => $does,
+            Shape::Drapery($surface) => $does,
+            Shape::WavySphere($surface) => $does,
+            Shape::MainDirection($surface) => $does,
+        }
+    };
 }
 
 impl Shape {
@@ -81,16 +102,19 @@ impl Shape {
             Self::Plane(_) => "plane",
             Self::Sphere(_) => "sphere",
             Self::Drapery(_) => "drapery",
+            Self::WavySphere(_) => "wavy-sphere",
+            Self::MainDirection(turned) => turned.shape().name(),
         }
+    }
+
+    /// See [`Surface::trace`].
+    pub fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
+        with!(self, surface => surface.trace(origin, direction))
     }
 
     /// See [`Surface::intersect`].
     pub fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
-        match self {
-            Self::Plane(plane) => plane.intersect(origin, direction),
-            Self::Sphere(sphere) => sphere.intersect(origin, direction),
-            Self::Drapery(mesh) => mesh.intersect(origin, direction),
-        }
+        with!(self, surface => surface.intersect(origin, direction))
     }
 
     /// See [`Surface::tiled`].
@@ -99,24 +123,29 @@ impl Shape {
             Self::Plane(plane) => Self::Plane(plane.tiled(tiles, aspect)),
             Self::Sphere(sphere) => Self::Sphere(sphere.tiled(tiles, aspect)),
             Self::Drapery(mesh) => Self::Drapery(mesh.tiled(tiles, aspect)),
+            Self::WavySphere(sphere) => Self::WavySphere(sphere.tiled(tiles, aspect)),
+            Self::MainDirection(turned) => Self::MainDirection(turned.tiled(tiles, aspect)),
         }
     }
 
     /// See [`Surface::tiles_across`].
     pub fn tiles_across(&self) -> f64 {
-        match self {
-            Self::Plane(plane) => plane.tiles_across(),
-            Self::Sphere(sphere) => sphere.tiles_across(),
-            Self::Drapery(mesh) => mesh.tiles_across(),
-        }
+        with!(self, surface => surface.tiles_across())
     }
 }
 
+/// Least sine of the angle between a ray and a tangent plane that counts: what is lower is taken for this, and
+/// numbers stay finite.
+const GRAZING: f64 = 1e-12;
+
 /// How the point under a pixel moves when the ray's direction changes by `d_direction`: the ray
 /// differential of Igehy 1999 on a plane across `normal`, which for a smooth surface is exact at the
-/// pixel's centre. World space, scene units.
+/// pixel's centre. World space, scene units. Finite however nearly the ray grazes the plane.
+#[inline(always)]
 pub fn displacement(direction: Vec3, d_direction: Vec3, t: f64, normal: Vec3) -> Vec3 {
-    let slide = d_direction.dot(&normal) / direction.dot(&normal);
+    let (cosine, least) = (direction.dot(&normal), GRAZING * direction.norm_squared().sqrt());
+    let held = cosine.abs().max(least.max(f64::MIN_POSITIVE)).copysign(cosine);
+    let slide = d_direction.dot(&normal) / held;
     (d_direction - direction * slide) * t
 }
 

@@ -125,6 +125,14 @@ impl<'a> Item<'a> {
         items.try_into().ok().or_else(|| self.mismatch(expected, None))
     }
 
+    /// A point or vector, each coordinate from −10⁶ to 10⁶. All three are read before any is missed, so that
+    /// all errors are told.
+    pub fn point(&self) -> Option<[f64; 3]> {
+        let coordinate = Limits::from_to(-1e6, 1e6);
+        let [x, y, z] = self.tuple("three numbers, [x, y, z]")?.map(|c| c.real(coordinate));
+        Some([x?, y?, z?])
+    }
+
     /// A list of at least one value, each read by `read`, no two the same. What cannot be read is
     /// left out, once logged.
     pub fn list<T: PartialEq>(

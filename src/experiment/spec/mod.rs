@@ -18,6 +18,7 @@ mod reader;
 mod reference;
 mod scene;
 mod suggest;
+mod surface;
 mod sweep;
 mod texture;
 mod values;
@@ -34,15 +35,15 @@ pub use error::{SpecError, SpecErrors};
 pub use method::MethodSpec;
 pub use paper::{Experiment, PaperKeys, PaperSpec, RowKeys, RowSpec};
 pub use reference::ReferenceSpec;
-pub use scene::{CameraSpec, ImageSpec, LightSpec, Shape};
+pub use scene::{CameraSpec, ImageSpec, LightSpec};
 pub(crate) use suggest::no_such;
+pub use surface::{AxesSpec, Shape, SurfaceSpec, WavySphereSpec};
 pub use sweep::{Scale, SweepSpec};
 pub use texture::{Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
 use crate::method::Truth;
 use catalogue::Catalogue;
-use limits::Limits;
 use log::Log;
 use material::Material;
 use reader::Reader;
@@ -63,7 +64,7 @@ pub struct Spec {
     /// The size of every image.
     pub image: ImageSpec,
     /// The surface.
-    pub surface: Shape,
+    pub surface: SurfaceSpec,
     /// The camera.
     pub camera: CameraSpec,
     /// The light.
@@ -137,15 +138,10 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
     let question = text_at("question").unwrap_or_default();
     let seed = root.whole("seed", 1, 0, i64::MAX as u64);
     let image = root.section("image", "[image]", ImageSpec::read);
-    let (surface, tiles) = root.section("surface", "[surface]", |reader| {
-        let shapes =
-            [("plane", Shape::Plane), ("sphere", Shape::Sphere), ("drapery", Shape::Drapery)];
-        let tiles = reader.item("tiles");
-        let limits = Limits::above(0.0, 1e6);
-        (reader.choice("shape", &shapes), tiles.and_then(|t| Some((t.clone(), t.real(limits)?))))
-    });
-    let camera = root.section("camera", "[camera]", |r| CameraSpec::read(r, surface));
-    let light = root.section("light", "[light]", |r| LightSpec::read(r, surface));
+    let (surface, tiles) = root.section("surface", "[surface]", SurfaceSpec::read);
+    let shape = surface.shape;
+    let camera = root.section("camera", "[camera]", |r| CameraSpec::read(r, shape));
+    let light = root.section("light", "[light]", |r| LightSpec::read(r, shape));
     let material = root.section("material", "[material]", Material::read);
     let reference = root.section("reference", "[reference]", ReferenceSpec::read);
     let textures = root.each_table("texture", "[texture.NAME]", |name, reader| {
@@ -154,8 +150,7 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
     let methods = root.each_table("method", "[method.LABEL]", |label, reader| {
         (label, MethodSpec::read(label, reader, catalogue))
     });
-    let context =
-        Context { catalogue, textures, methods, shape: surface, tiles, material, reference, seed };
+    let context = Context { catalogue, textures, methods, shape, tiles, material, reference, seed };
     let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));
     Spec {
         name,

@@ -2,6 +2,7 @@
 
 use super::limits::Limits;
 use super::reader::Reader;
+pub(super) use super::surface::Shape;
 
 /// The size of every image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,29 +20,7 @@ impl ImageSpec {
     }
 }
 
-/// The surface that carries the bumps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Shape {
-    /// The plane z = 0.
-    Plane,
-    /// The sphere of radius 1 about the origin.
-    Sphere,
-    /// A cloth that hangs in folds about the origin and faces −y.
-    Drapery,
-}
-
-impl Shape {
-    /// Its name in specs and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Plane => "plane",
-            Self::Sphere => "sphere",
-            Self::Drapery => "drapery",
-        }
-    }
-}
-
-/// Where the camera stands. It looks at the origin, with z up.
+/// Where the camera stands, and what it looks at, with z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSpec {
     /// Degrees above the plane z = 0: in (0, 90] for a plane, (−90, 90) for a sphere.
@@ -52,6 +31,8 @@ pub struct CameraSpec {
     pub fov: f64,
     /// Distance from the origin, scene units; a sweep over distances takes its place.
     pub distance: f64,
+    /// The point it looks at, scene units: not above a plane, inside a sphere.
+    pub target: [f64; 3],
 }
 
 /// Any direction around the vertical, degrees.
@@ -61,15 +42,35 @@ impl CameraSpec {
     pub(super) fn read(reader: &Reader, shape: Shape) -> Self {
         let elevation = match shape {
             Shape::Plane => Limits::above(0.0, 90.0).degrees(),
-            Shape::Sphere | Shape::Drapery => Limits::between(-90.0, 90.0).degrees(),
+            _ => Limits::between(-90.0, 90.0).degrees(),
         };
         Self {
             elevation: reader.real("elevation", 40.0, elevation),
             azimuth: reader.real("azimuth", -90.0, AZIMUTH),
             fov: reader.real("fov", 25.0, Limits::above(0.0, 120.0).degrees()),
             distance: reader.real("distance", 4.0, distance_limits(shape)),
+            target: target(reader, shape),
         }
     }
+}
+
+/// What the camera looks at; checked to be where the image's middle shows the surface.
+fn target(reader: &Reader, shape: Shape) -> [f64; 3] {
+    let Some(item) = reader.item("target") else { return [0.0; 3] };
+    let Some([x, y, z]) = item.point() else { return [0.0; 3] };
+    let square = x * x + y * y + z * z;
+    let message = match shape {
+        Shape::Plane if z > 0.0 => format!("`target` is above the plane: z is {z}"),
+        Shape::Drapery | Shape::WavySphere(_) if square > 0.25 => {
+            "`target` is more than 0.5 from the origin".to_owned()
+        }
+        Shape::Sphere if square >= 1.0 => {
+            "`target` is not inside the sphere of radius 1".to_owned()
+        }
+        _ => return [x, y, z],
+    };
+    item.error(message, Some("the middle of the image must show the surface".to_owned()));
+    [0.0; 3]
 }
 
 /// How far a camera may be from the origin: outside the surface.
@@ -77,7 +78,7 @@ pub(super) fn distance_limits(shape: Shape) -> Limits {
     match shape {
         Shape::Plane => Limits::above(0.0, 1e6),
         Shape::Sphere => Limits::above(1.0, 1e6),
-        Shape::Drapery => Limits::above(2.0, 1e6),
+        Shape::Drapery | Shape::WavySphere(_) => Limits::above(2.0, 1e6),
     }
 }
 
@@ -125,7 +126,7 @@ impl LightSpec {
         } else {
             let elevation = match shape {
                 Shape::Plane => Limits::above(0.0, 90.0),
-                Shape::Sphere | Shape::Drapery => Limits::from_to(-90.0, 90.0),
+                _ => Limits::from_to(-90.0, 90.0),
             };
             Self::Directional {
                 elevation: reader.real("elevation", 40.0, elevation.degrees()),
@@ -140,20 +141,17 @@ impl LightSpec {
 fn position(reader: &Reader, shape: Shape) -> [f64; 3] {
     const DEFAULT: [f64; 3] = [0.0, 2.0, 2.0];
     let Some(item) = reader.item("position") else { return DEFAULT };
-    let read = || {
-        let [x, y, z] = item.tuple("three numbers, [x, y, z]")?;
-        let coordinate = Limits::from_to(-1e6, 1e6);
-        // All three are read before any is missed, so that all errors are told.
-        let [x, y, z] = [x, y, z].map(|c| c.real(coordinate));
-        Some([x?, y?, z?])
-    };
-    let Some([x, y, z]) = read() else { return DEFAULT };
+    let Some([x, y, z]) = item.point() else { return DEFAULT };
     match shape {
         Shape::Plane if z <= 0.0 => {
             item.error(format!("`position` is not above the plane: z is {z}"), None);
         }
         Shape::Sphere if x * x + y * y + z * z <= 1.0 => {
             item.error("`position` is inside the sphere of radius 1".to_owned(), None);
+        }
+        Shape::WavySphere(wavy) if x * x + y * y + z * z <= wavy.outside() * wavy.outside() => {
+            let message = format!("`position` is not outside the crests, at {}", wavy.outside());
+            item.error(message, None);
         }
         _ => {}
     }

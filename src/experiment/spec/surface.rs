@@ -1,0 +1,150 @@
+//! The surface that carries the bumps, and the axes they stand in.
+
+use super::item::Item;
+use super::limits::Limits;
+use super::reader::Reader;
+use crate::geometry::Ripples;
+
+/// A surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceSpec {
+    /// What it is.
+    pub shape: Shape,
+    /// What its bumps stand in.
+    pub axes: AxesSpec,
+}
+
+/// The form of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// The plane z = 0.
+    Plane,
+    /// The sphere of radius 1 about the origin.
+    Sphere,
+    /// A cloth that hangs in folds about the origin and faces −y.
+    Drapery,
+    /// A sphere about the origin whose radius ripples, as a mesh.
+    WavySphere(WavySphereSpec),
+}
+
+/// A rippled sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WavySphereSpec {
+    /// Its ripples.
+    pub ripples: Ripples,
+    /// Cells of the mesh from pole to pole, in [3, 256]; twice as many are round the equator.
+    pub cells: usize,
+}
+
+impl WavySphereSpec {
+    /// Radius of its crests: nothing of it is further out.
+    pub(super) fn outside(&self) -> f64 {
+        1.0 + self.ripples.amplitude
+    }
+
+    fn read(reader: &Reader) -> Self {
+        Self {
+            cells: reader.whole("cells", 24, 3, 256) as usize,
+            ripples: Ripples {
+                count: reader.whole("ripples", 12, 0, 64) as u32,
+                amplitude: reader.real("amplitude", 0.03, Limits::from_to(0.0, 0.5)),
+            },
+        }
+    }
+}
+
+/// The axes that bumps stand in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AxesSpec {
+    /// Along u and across it, about the surface's normal.
+    Natural,
+    /// East, north and out on the sphere without ripples.
+    Sphere,
+    /// Across a main direction and on its side: its coordinates, world space, not all 0.
+    MainDirection([f64; 3]),
+}
+
+impl Shape {
+    /// Its name in specs and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plane => "plane",
+            Self::Sphere => "sphere",
+            Self::Drapery => "drapery",
+            Self::WavySphere(_) => "wavy-sphere",
+        }
+    }
+}
+
+/// The words for a shape, before its own keys are read.
+#[derive(Clone, Copy)]
+enum Word {
+    Of(Shape),
+    WavySphere,
+}
+
+impl SurfaceSpec {
+    /// Reads it, with the key `tiles` and its value if there is one.
+    pub(super) fn read<'a>(reader: &Reader<'a>) -> (Self, Option<(Item<'a>, f64)>) {
+        let shapes = [
+            ("plane", Word::Of(Shape::Plane)),
+            ("sphere", Word::Of(Shape::Sphere)),
+            ("drapery", Word::Of(Shape::Drapery)),
+            ("wavy-sphere", Word::WavySphere),
+        ];
+        let shape = match reader.choice("shape", &shapes) {
+            Word::Of(shape) => shape,
+            Word::WavySphere => Shape::WavySphere(WavySphereSpec::read(reader)),
+        };
+        let tiles = reader.item("tiles");
+        let limits = Limits::above(0.0, 1e6);
+        let tiles = tiles.and_then(|t| Some((t.clone(), t.real(limits)?)));
+        (Self { shape, axes: AxesSpec::read(reader, shape) }, tiles)
+    }
+}
+
+impl AxesSpec {
+    fn read(reader: &Reader, shape: Shape) -> Self {
+        #[derive(Clone, Copy)]
+        enum Frame {
+            Natural,
+            Sphere,
+            Main,
+        }
+        let frame = match shape {
+            Shape::WavySphere(_) => reader.choice(
+                "frame",
+                &[
+                    ("vertex", Frame::Natural),
+                    ("sphere", Frame::Sphere),
+                    ("main-direction", Frame::Main),
+                ],
+            ),
+            _ => reader.choice(
+                "frame",
+                &[("normalised", Frame::Natural), ("main-direction", Frame::Main)],
+            ),
+        };
+        match frame {
+            Frame::Natural => Self::Natural,
+            Frame::Sphere => Self::Sphere,
+            Frame::Main => Self::MainDirection(main_direction(reader, shape)),
+        }
+    }
+}
+
+/// The main direction; by default the sphere's axis, and on the plane +y, which gives the plane's own axes.
+fn main_direction(reader: &Reader, shape: Shape) -> [f64; 3] {
+    let default = if shape == Shape::Plane { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let Some(item) = reader.item("main") else { return default };
+    let Some([x, y, z]) = item.point() else { return default };
+    let message = match shape {
+        Shape::Plane if x == 0.0 && y == 0.0 => {
+            "`main` is across the plane: no axis follows from it"
+        }
+        _ if [x, y, z] == [0.0; 3] => "`main` has no direction",
+        _ => return [x, y, z],
+    };
+    item.error(message.to_owned(), None);
+    default
+}
