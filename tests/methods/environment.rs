@@ -10,7 +10,7 @@ use wrinkle::method::{MeanNormals, Truth, brute_force};
 use wrinkle::parameter::Values;
 use wrinkle::render::{Camera, Film, Filtered, PixelSampler, View, reference_replicate, trial};
 use wrinkle::surface::{Plane, Shape, Sphere};
-use wrinkle::texture::{NormalMap, Wrap};
+use wrinkle::texture::{Lookup, NormalMap, Wrap};
 
 use super::fixture::{BASES, Case, bumps, cases, footprint, hemisphere, single, top, weighted};
 
@@ -73,7 +73,8 @@ fn white_stays_white_for_methods_that_keep_energy_and_for_no_other() {
 fn view(shape: Shape, light: Light, elevation: f64) -> View {
     let camera = Camera::orbiting(4.0, elevation, -90.0, 40.0, 8, 6);
     let surface = shape.tiled(2.0, 1.0);
-    View { camera, surface, light, shading: Shading::Ndf, wrap: Wrap::Repeat }
+    let (shading, wrap, lookup) = (Shading::Ndf, Wrap::Repeat, Lookup::default());
+    View { camera, surface, light, shading, wrap, lookup }
 }
 
 fn under(environment: &Arc<Environment>, filter: Filter) -> Light {
