@@ -76,11 +76,11 @@ pub fn mirrored(
             let Some(patch) = Patch::of(slopes.mean, covariance, eye) else {
                 continue;
             };
-            let area = weight * patch.area;
-            seen.area += area;
             // What is hardly seen is not worth a lookup.
             if patch.area > 1e-7 {
+                let area = weight * patch.area;
                 let cone = Cone::of(&slopes, &patch, eye);
+                seen.area += area;
                 seen.light += area * cone.light(environment, filter, frame);
             }
         }
