@@ -41,8 +41,8 @@ impl Environment {
         if count < 1.0 || lacking < 0.02 * long {
             return self.cone(direction, mean);
         }
-        let axis = if b.abs() > 0.0 || half < 0.0 { [b, long - a] } else { [1.0, 0.0] };
-        let axis = if axis == [0.0, 0.0] { [1.0, 0.0] } else { axis };
+        // The long axis, as the longer of two forms of it.
+        let axis = if half < 0.0 { [b, long - a] } else { [long - c, b] };
         let along = (frame[0] * axis[0] + frame[1] * axis[1]).normalize();
         self.row_of_probes(direction, &along, width, lacking, (count as usize).min(PROBES / 2))
     }

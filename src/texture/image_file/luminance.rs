@@ -7,8 +7,8 @@ use std::path::Path;
 use ::exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, read};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-use super::ImageError;
-use super::samples::{check_exr, check_most, first_bytes};
+use super::samples::{check_exr, first_bytes};
+use super::{ImageError, exr};
 
 /// Luminance as a grid, before anything is asked of it: infinite, negative and not-a-number samples are
 /// as stored.
@@ -27,8 +27,9 @@ pub struct Luminance {
 /// 0.0722 B).
 ///
 /// # Errors
-/// An [`ImageError`] that names the file.
-pub fn read_luminance(path: impl AsRef<Path>) -> Result<Luminance, ImageError> {
+/// An [`ImageError`] that names the file; [`ImageError::TooLarge`] if it is more than `most` pixels across or
+/// down.
+pub fn read_luminance(path: impl AsRef<Path>, most: u32) -> Result<Luminance, ImageError> {
     let path = path.as_ref();
     let mut file = BufReader::new(File::open(path).map_err(|e| ImageError::reading(path, e))?);
     let start = first_bytes(&mut file, 64).map_err(|e| ImageError::reading(path, e))?;
@@ -36,12 +37,22 @@ pub fn read_luminance(path: impl AsRef<Path>) -> Result<Luminance, ImageError> {
         _ if start.is_empty() => Err(ImageError::Empty { path: path.to_owned() }),
         Ok(ImageFormat::OpenExr) => {
             check_exr(path, &mut file)?;
+            let start = first_bytes(&mut file, exr::HEADER);
+            let start = start.map_err(|e| ImageError::reading(path, e))?;
+            check_sides(path, exr::data_window(&start), most)?;
             drop(file);
             read_exr(path)
         }
-        Ok(ImageFormat::Hdr) => read_hdr(path, file),
+        Ok(ImageFormat::Hdr) => read_hdr(path, file, most),
         _ => Err(ImageError::UnknownFormat { path: path.to_owned() }),
     }
+}
+
+fn check_sides(path: &Path, [width, height]: [u32; 2], limit: u32) -> Result<(), ImageError> {
+    if width.max(height) > limit {
+        return Err(ImageError::TooLarge { path: path.to_owned(), width, height, limit });
+    }
+    Ok(())
 }
 
 fn luminance(r: f32, g: f32, b: f32) -> f32 {
@@ -103,7 +114,7 @@ fn read_grey(path: &Path) -> Result<Luminance, ::exr::error::Error> {
         .map(|image| image.layer_data.channel_data.pixels)
 }
 
-fn read_hdr(path: &Path, file: BufReader<File>) -> Result<Luminance, ImageError> {
+fn read_hdr(path: &Path, file: BufReader<File>, most: u32) -> Result<Luminance, ImageError> {
     let failed = |e| ImageError::decoding(path, e);
     let mut reader = ImageReader::with_format(file, ImageFormat::Hdr);
     reader.limits(Limits::default());
@@ -112,7 +123,7 @@ fn read_hdr(path: &Path, file: BufReader<File>) -> Result<Luminance, ImageError>
     if width == 0 || height == 0 {
         return Err(ImageError::Empty { path: path.to_owned() });
     }
-    check_most(path, (width, height))?;
+    check_sides(path, [width, height], most)?;
     let image = DynamicImage::from_decoder(decoder).map_err(failed)?.into_rgb32f();
     let values = image.pixels().map(|p| luminance(p[0], p[1], p[2])).collect();
     Ok(Luminance { width: width as usize, height: height as usize, values })

@@ -188,7 +188,7 @@ fn check_size(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError
     check_most(path, (width, height))
 }
 
-pub(super) fn check_most(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError> {
+fn check_most(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError> {
     // A square of 8192 is the largest in all.
     let limit = if width > MOST || height > MOST { MOST } else { 1 << 13 };
     if limit == MOST || u64::from(width) * u64::from(height) > MOST_PIXELS {
