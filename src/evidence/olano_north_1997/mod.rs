@@ -1,5 +1,6 @@
 //! Olano and North 1997, Normal Distribution Mapping.
 
+mod body;
 mod common;
 mod densities;
 mod f1;
