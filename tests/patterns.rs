@@ -299,7 +299,7 @@ fn heights_belong_to_the_normals() {
         ("gaussian", vec![]),
         ("corrugated", vec![]),
         ("corrugated", vec![("profile", Value::Word("arcs")), ("axis", Value::Word("u"))]),
-        ("brushed", vec![("width", number(3.0))]),
+        ("brushed", vec![("breadth", number(3.0))]),
     ] {
         let bumps = make(name, [96, 64], &set, 2);
         let by_difference = NormalMap::from_heights(&bumps.heights.unwrap(), 1.0);

@@ -5,16 +5,18 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    AxesSpec, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale, Shape as ShapeSpec, Spec,
-    SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
+    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
+use crate::light::environment::{Environment, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
-    ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
+    BumpSource, CameraPose, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
+    ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture,
+    Tiling, TrialOf,
 };
 use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
@@ -89,7 +91,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
     let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
-    let light = world.spawn(LightSource(lit(&spec.light))).id();
+    let light = spawn_light(world, &spec.light);
     let placements: Vec<Placement> = placements(spec)
         .into_iter()
         .map(|(pose, tiling)| Placement::spawn(world, pose, tiling))
@@ -99,10 +101,8 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     for (index, &texture) in plan.textures.iter().enumerate() {
         let texture_key = super::keys::texture(&spec.sweep.textures[index]);
         for &(base, material) in &materials {
-            let prefilters: Vec<Entity> = strategies
-                .iter()
-                .map(|&strategy| world.spawn(PrefilterOf { texture, strategy, material }).id())
-                .collect();
+            let of = |strategy| PrefilterOf { texture, strategy, material };
+            let prefilters = spawn_prefilters(world, spec, &strategies, of);
             for placement in &placements {
                 let of = SceneOf { texture, surface, camera: placement.camera, light, material };
                 let slug = slug(spec, index, &base, placement);
@@ -162,6 +162,25 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> E
     let ReferenceSpec { spp, replicates, truth } = spec.reference;
     let reference = ReferencePlan { spp, replicates, truth };
     world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+}
+
+/// One prefilter a method; those that differ in their lookup alone are built once.
+fn spawn_prefilters(
+    world: &mut World,
+    spec: &Spec,
+    strategies: &[Entity],
+    of: impl Fn(Entity) -> PrefilterOf,
+) -> Vec<Entity> {
+    let methods = &spec.sweep.methods;
+    let mut all: Vec<Entity> = Vec::with_capacity(methods.len());
+    for (k, (method, &strategy)) in methods.iter().zip(strategies).enumerate() {
+        let entity = world.spawn((of(strategy), LookupBy(method.lookup))).id();
+        if let Some(other) = methods[..k].iter().position(|other| other.same_filter(method)) {
+            world.entity_mut(entity).insert(SameAs(all[other]));
+        }
+        all.push(entity);
+    }
+    all
 }
 
 fn spawn_trials(
@@ -247,13 +266,41 @@ fn shape(spec: &SurfaceSpec) -> Shape {
     }
 }
 
-fn lit(spec: &LightSpec) -> Light {
-    match *spec {
+fn spawn_light(world: &mut World, spec: &LightSpec) -> Entity {
+    let spec = spec.clone();
+    match spec {
         LightSpec::Directional { elevation, azimuth, irradiance } => {
-            Light::Directional { direction: direction(elevation, azimuth), irradiance }
+            let direction = direction(elevation, azimuth);
+            world.spawn(LightSource(Light::Directional { direction, irradiance })).id()
         }
         LightSpec::Point { position: [x, y, z], intensity } => {
-            Light::Point { position: crate::geometry::Vec3::new(x, y, z), intensity }
+            let position = crate::geometry::Vec3::new(x, y, z);
+            world.spawn(LightSource(Light::Point { position, intensity })).id()
+        }
+        LightSpec::Environment { source, rotation, intensity, filter } => {
+            let origin = LightOrigin(Box::new(move || {
+                let environment = Arc::new(surroundings(&source, rotation, intensity)?);
+                Ok(Light::Environment { environment, filter })
+            }));
+            world.spawn(origin).id()
+        }
+    }
+}
+
+/// Makes or reads an environment.
+fn surroundings(
+    source: &EnvironmentSource,
+    rotation: f64,
+    intensity: f64,
+) -> Result<Environment, LoadError> {
+    match source {
+        EnvironmentSource::Map { name, width, values } => {
+            let entry = maps::find(name).expect("the spec names registered maps");
+            let radiance = (entry.build)(values);
+            Ok(Environment::of(&radiance, width / 2, rotation, intensity))
+        }
+        EnvironmentSource::File { path } => {
+            read(path, rotation, intensity).map_err(|error| LoadError(error.to_string()))
         }
     }
 }

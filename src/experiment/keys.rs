@@ -4,7 +4,7 @@
 //! into its digest (see [`super::store`]).
 
 use super::author::{PlannedScene, PlannedTrial};
-use super::spec::{Spec, TextureSource, TextureSpec};
+use super::spec::{EnvironmentSource, LightSpec, Spec, TextureSource, TextureSpec};
 
 /// Name of a scene's reference among its records.
 pub(super) const REFERENCE: &str = "reference";
@@ -14,9 +14,26 @@ pub(super) const PROBES: &str = "probes";
 /// What is common to all scenes of an experiment.
 pub(super) fn common(spec: &Spec) -> String {
     format!(
-        "{:?} {:?} {:?} {:?} {:?} {:?} {}",
-        spec.image, spec.surface, spec.camera, spec.light, spec.shading, spec.reference, spec.seed
+        "{:?} {:?} {:?} {} {:?} {:?} {}",
+        spec.image,
+        spec.surface,
+        spec.camera,
+        light(&spec.light),
+        spec.shading,
+        spec.reference,
+        spec.seed
     )
+}
+
+/// A light, with the bytes of its file if it has one; see [`texture`].
+fn light(light: &LightSpec) -> String {
+    match light {
+        LightSpec::Environment { source: EnvironmentSource::File { path }, .. } => {
+            let bytes = std::fs::read(path).unwrap_or_default();
+            format!("{light:?} {}", blake3::hash(&bytes).to_hex())
+        }
+        _ => format!("{light:?}"),
+    }
 }
 
 /// A texture, with the bytes of its file. (Of a file that cannot be read nothing is said here; reading

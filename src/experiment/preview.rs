@@ -3,7 +3,7 @@
 use super::author::author;
 use super::spec::{Scale, Spec, no_such};
 use crate::method::{Method, Progress};
-use crate::render::{Film, PixelSampler, render};
+use crate::render::{self, Film, Filtered, PixelSampler};
 use crate::scene::{Current, Failure, Halt, StagedScene, Stagehand, stage};
 
 /// Which image of an experiment.
@@ -48,7 +48,7 @@ pub fn stage_one(spec: &Spec, wish: &Wish<'_>) -> Result<StagedScene, NoImage> {
     let plan = author(&one, &mut hand);
     let scene = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
     hand.world.insert_resource(Current(scene.entity));
-    // With no method in the sweep, a tick loads the texture; the rest is for others to do.
+    // With no method in the sweep, a tick loads texture and light; the rest is for others to do.
     hand.tick();
     if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
         return Err(NoImage(error.to_string()));
@@ -73,6 +73,8 @@ pub fn render_one(
         .prefilter(&staged.map, &staged.material.base, progress)
         .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;
     let sampler = PixelSampler::new(wish.spp);
-    render(&staged.view, prefiltered.as_ref(), &sampler, spec.seed, 0, &|| false)
+    let filtered =
+        Filtered { map: &staged.map, card: method.card(), prefiltered: prefiltered.as_ref() };
+    render::trial(&staged.view, &filtered, &sampler, spec.seed, 0, &|| false)
         .map_err(|error| NoImage(error.to_string()))
 }

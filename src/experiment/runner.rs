@@ -15,9 +15,10 @@ use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
 use super::collect::collect;
 use super::keys;
 use super::results::{Costs, Results};
-use super::spec::{Spec, TextureSpec};
+use super::spec::{EnvironmentSource, LightSpec, Spec, TextureSpec};
 use super::store::{Store, StoreError};
 use super::work::Work;
+use crate::light::environment::{self, EnvironmentError};
 use crate::scene::{
     Current, Exposure, Failure, Halt, LoadError, Prefilter, ReferenceImage, Stagehand, Watch,
 };
@@ -42,6 +43,9 @@ pub enum RunError {
         /// Why.
         source: LoadError,
     },
+    /// An environment could not be read.
+    #[error("[light]: {0}")]
+    Light(#[from] EnvironmentError),
     /// Results could not be kept.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -50,13 +54,16 @@ pub enum RunError {
 /// Runs an experiment, with its results kept in `folder`, until it is done or `halt` is set.
 ///
 /// # Errors
-/// If a texture cannot be loaded or results cannot be written. Textures that are files are read
+/// If a texture or an environment cannot be loaded or results cannot be written. Textures that are files are read
 /// first, so that a bad one is told before any work is done.
 ///
 /// Only one run may work in a folder at a time: hold its [`super::lock::Lock`].
 pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<Outcome, RunError> {
     let start = Instant::now();
     let work = Work::of(spec, texels(spec)?);
+    if let LightSpec::Environment { source: EnvironmentSource::File { path }, .. } = &spec.light {
+        environment::inspect(path)?;
+    }
     let mut stage = Stagehand::new(spec.seed, halt.clone());
     let of_part = Arc::clone(watch);
     stage.world.insert_resource(Watch(Arc::new(move |part| of_part(RunEvent::Partly { part }))));

@@ -1,9 +1,17 @@
 //! Floor 3: lights.
 
+pub mod environment;
+mod mirror;
+
+use std::sync::Arc;
+
+pub use mirror::{Filter, Seen, mirrored};
+
 use crate::geometry::Vec3;
+use environment::Environment;
 
 /// Where light comes from. Light is not coloured: one number a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Light {
     /// A light infinitely far away.
     Directional {
@@ -19,6 +27,13 @@ pub enum Light {
         /// Radiant intensity I: E = I / r² on a plane that faces it at distance r.
         intensity: f64,
     },
+    /// Light from everywhere, mirrored by the facets of the surface ([`mirrored`]).
+    Environment {
+        /// Radiance by direction.
+        environment: Arc<Environment>,
+        /// How filtered lobes look it up.
+        filter: Filter,
+    },
 }
 
 impl Light {
@@ -27,11 +42,12 @@ impl Light {
         match self {
             Self::Directional { .. } => "directional",
             Self::Point { .. } => "point",
+            Self::Environment { .. } => "environment",
         }
     }
 
     /// The unit direction from `point` to the light, and the irradiance there on a plane facing it.
-    /// At the light itself there is none.
+    /// At the light itself there is none; nor is there of an environment, which is no single direction.
     #[inline(always)]
     pub fn seen_from(&self, point: Vec3) -> (Vec3, f64) {
         match *self {
@@ -45,6 +61,7 @@ impl Light {
                     (Vec3::z(), 0.0)
                 }
             }
+            Self::Environment { .. } => (Vec3::z(), 0.0),
         }
     }
 }

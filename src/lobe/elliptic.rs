@@ -3,7 +3,7 @@
 use std::f32::consts::{PI, TAU};
 
 use super::vector::{Sym2, V3, dot, invert, quadratic, tangents, unit};
-use super::{Facet, Spread, vector};
+use super::{Facet, Slopes, Spread, vector};
 use crate::geometry::elementary::{exp32, ln_1p32};
 
 /// How density falls with q = xᵀ M⁻¹ x, where x is the slope of h about the lobe's axis and M the
@@ -31,6 +31,18 @@ pub enum Profile {
     Ggx,
 }
 
+impl Profile {
+    /// P(0) √det M.
+    #[inline(always)]
+    fn at_zero(self) -> f32 {
+        match self {
+            Self::Student { exponent: s } => (s + 2.0) / (TAU * s),
+            Self::Gaussian => 1.0 / TAU,
+            Self::Ggx => 1.0 / PI,
+        }
+    }
+}
+
 /// D(h) = amplitude · P(x − b) / (h·pole)⁴ for h above the plane across the pole, else 0, with x the
 /// slopes of h about the pole and b the mean slope.
 ///
@@ -55,12 +67,7 @@ impl EllipticLobe {
         let pole = unit(pole);
         let (tangent, bitangent) = tangents(pole);
         let (inverse, determinant) = invert(spread);
-        let at_zero = match profile {
-            Profile::Student { exponent: s } => (s + 2.0) / (TAU * s),
-            Profile::Gaussian => 1.0 / TAU,
-            Profile::Ggx => 1.0 / PI,
-        };
-        let peak = amplitude * at_zero / determinant.sqrt();
+        let peak = amplitude * profile.at_zero() / determinant.sqrt();
         Self { pole, tangent, bitangent, mean: [0.0; 2], spread, inverse, peak, profile }
     }
 
@@ -100,6 +107,12 @@ impl Spread for EllipticLobe {
             Profile::Ggx => secant4 / ((1.0 + q) * (1.0 + q)),
         };
         if cosine > 0.0 { self.peak * fall } else { 0.0 }
+    }
+
+    fn slopes(&self) -> Slopes {
+        let Self { pole, tangent, bitangent, mean, spread, profile, .. } = *self;
+        let amplitude = self.peak / profile.at_zero() * invert(spread).1.sqrt();
+        Slopes { pole, tangent, bitangent, amplitude, mean, spread, profile }
     }
 
     #[inline(always)]

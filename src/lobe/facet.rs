@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Slopes;
 use super::vector::{Sym2, V3, dot, quadratic};
 
 /// What a lobe's density means for the light that leaves the surface.
@@ -35,6 +36,11 @@ pub trait Spread {
 
     /// The facet that shadowing and masking are reckoned about.
     fn facet(&self) -> Facet;
+
+    /// The lobe as a distribution of slopes about a pole.
+    fn slopes(&self) -> Slopes {
+        Slopes::integrated(self)
+    }
 
     /// Radiance for unit irradiance (see [`Shading`]), with l and v unit vectors.
     #[inline(always)]

@@ -19,6 +19,7 @@ mod pedal;
 mod reflection;
 mod restricted;
 pub mod round;
+mod slopes;
 mod surface_file;
 pub mod vector;
 
@@ -32,4 +33,5 @@ pub use peak::PhongPeak;
 pub use pedal::{Contour, Fall, PedalLobe};
 pub use reflection::reflection;
 pub use restricted::{Cut, Generator, RestrictedLobe};
+pub use slopes::{GAUSSIANS, Gaussian, Slopes};
 pub use surface_file::{SurfaceFileError, read_peaks};

@@ -1,7 +1,7 @@
 //! Fournier's Phong peak.
 
 use super::vector::{V3, dot, tan_squared, tangents};
-use super::{Facet, Spread};
+use super::{Facet, Profile, Slopes, Spread};
 use crate::geometry::elementary::{exp32, ln_1p32};
 
 /// a · max(0, h·d)ⁿ: amplitude, direction, exponent (Fournier 1992 §2.2). Four unknowns a peak, as
@@ -23,6 +23,21 @@ impl Spread for PhongPeak {
     fn density(&self, h: V3) -> f32 {
         let fall = exp32(-0.5 * self.exponent * ln_1p32(tan_squared(self.direction, h)));
         if dot(h, self.direction) > 0.0 { self.amplitude * fall } else { 0.0 }
+    }
+
+    /// A Blinn-Phong lobe's, times the amplitude.
+    fn slopes(&self) -> Slopes {
+        let (tangent, bitangent) = tangents(self.direction);
+        let n = self.exponent.max(1e-3);
+        Slopes {
+            pole: self.direction,
+            tangent,
+            bitangent,
+            amplitude: std::f32::consts::TAU * self.amplitude / (n + 2.0),
+            mean: [0.0; 2],
+            spread: [1.0 / n, 0.0, 1.0 / n],
+            profile: Profile::Student { exponent: n },
+        }
     }
 
     #[inline(always)]

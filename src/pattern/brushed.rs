@@ -24,7 +24,7 @@ pub const ENTRY: Entry = Entry {
             domain: Domain::Real { default: 96.0, min: 4.0, max: 4096.0 },
         },
         Parameter {
-            name: "width",
+            name: "breadth",
             meaning: "standard deviation of a scratch's profile, texels",
             domain: Domain::Real { default: 1.0, min: 0.5, max: 8.0 },
         },
@@ -43,7 +43,8 @@ pub const ENTRY: Entry = Entry {
 };
 
 fn build(width: usize, height: usize, values: &Values, seed: u64) -> Bumps {
-    let [length, deviation, density] = ["length", "width", "density"].map(|key| values.number(key));
+    let [length, deviation, density] =
+        ["length", "breadth", "density"].map(|key| values.number(key));
     let mut random = uniform(seed);
     let mut points = vec![[0.0; 3]; width * height];
     let count = (density * (width * height) as f64 / length).ceil() as usize;

@@ -2,6 +2,7 @@
 
 mod camera;
 mod display;
+mod environment;
 mod film;
 mod film_file;
 mod image_file;
@@ -14,11 +15,12 @@ mod view;
 
 pub use camera::{Camera, direction};
 pub use display::{heat, percentile, srgb, write_error_png};
+pub use environment::{Filtered, reference_replicate, trial};
 pub use film::Film;
 pub use image_file::{Coding, FilmError, StoredImage, read_image};
 pub use portrait::Portrait;
 pub use probe::true_distribution;
 pub use reference::{Converged, average};
 pub use renderer::{Cancelled, render};
-pub use sampler::{PixelSampler, stream};
+pub use sampler::{Choices, PixelSampler, stream};
 pub use view::View;

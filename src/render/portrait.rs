@@ -52,9 +52,10 @@ impl Portrait {
         let view = View {
             camera: self.camera,
             surface: self.shape.clone(),
-            light: self.light,
+            light: self.light.clone(),
             shading: self.shading,
             wrap: Wrap::Repeat,
+            lookup: crate::texture::Lookup::default(),
         };
         let sampler = PixelSampler::new(self.spp);
         render(&view, &Constant(surface), &sampler, self.seed, 0, &|| false)

@@ -58,6 +58,58 @@ impl PixelSampler {
     }
 }
 
+/// Three further numbers a sample, for choices other than its position: dimensions 3 to 5 of the same
+/// sequence (Joe and Kuo 2008), scrambled in the same way by masks of their own.
+#[derive(Clone, Debug)]
+pub struct Choices {
+    points: Vec<[u32; 3]>,
+}
+
+/// Degree, coefficients and first direction numbers of the polynomials of dimensions 3 to 5.
+const POLYNOMIALS: [(usize, u32, [u32; 3]); 3] =
+    [(2, 1, [1, 3, 0]), (3, 1, [1, 3, 1]), (3, 2, [1, 1, 1])];
+
+impl Choices {
+    /// Choices for `spp` ≥ 1 samples a pixel.
+    pub fn new(spp: u32) -> Self {
+        let directions = POLYNOMIALS.map(directions);
+        let point = |index: u32| {
+            directions.map(|numbers| {
+                let bits = (0..32).filter(|k| index >> k & 1 == 1);
+                bits.fold(0, |sum, k| sum ^ numbers[k])
+            })
+        };
+        Self { points: (0..spp).map(point).collect() }
+    }
+
+    /// The numbers, in (0, 1), of sample `index` of a pixel; see [`PixelSampler::fill`].
+    ///
+    /// # Panics
+    /// If there are not so many samples.
+    #[inline]
+    pub fn of(&self, stream: u64, index: usize) -> [f64; 3] {
+        let (first, second) =
+            (mix(stream ^ 0x5851_f42d_4c95_7f2d), mix(stream ^ 0x1405_7b7e_f767_814f));
+        let masks = [first as u32, (first >> 32) as u32, second as u32];
+        [0, 1, 2].map(|c| fraction(self.points[index][c] ^ masks[c]))
+    }
+}
+
+/// The 32 direction numbers of a primitive polynomial, as binary fractions.
+fn directions((degree, coefficients, first): (usize, u32, [u32; 3])) -> [u32; 32] {
+    let mut numbers = [0u32; 32];
+    for k in 0..32 {
+        numbers[k] = if k < degree {
+            first[k] << (31 - k)
+        } else {
+            let inner = (1..degree).filter(|j| coefficients >> (degree - 1 - j) & 1 == 1);
+            let start = numbers[k - degree] ^ (numbers[k - degree] >> degree);
+            inner.fold(start, |sum, j| sum ^ numbers[k - j])
+        };
+    }
+    numbers
+}
+
 /// The upper 31 bits as a binary fraction, half a unit in the last place added: inside (0, 1).
 #[inline(always)]
 fn fraction(bits: u32) -> f64 {
@@ -122,6 +174,26 @@ mod tests {
             let off = (sum / n as f64 - 0.5).abs();
             assert!(off < 4.0 / (12.0 * n as f64).sqrt(), "coordinate {c}: {off}");
         }
+    }
+
+    #[test]
+    fn choices_are_even_and_differ_from_pixel_to_pixel() {
+        let choices = Choices::new(4096);
+        let points: Vec<[f64; 3]> = (0..4096).map(|i| choices.of(stream(3, 1, 9), i)).collect();
+        // Each number alone: one in each of 4096 intervals.
+        for c in 0..3 {
+            let mut cells: Vec<usize> = points.iter().map(|p| (p[c] * 4096.0) as usize).collect();
+            cells.sort_unstable();
+            assert!(cells.iter().enumerate().all(|(k, &cell)| k == cell), "number {c}");
+        }
+        // All three together: 8 in each of 8 × 8 × 8 boxes, give or take the sequence's quality t ≤ 3.
+        let mut boxes = [0; 512];
+        for p in &points {
+            let [a, b, c] = p.map(|x| (x * 8.0) as usize);
+            boxes[(a * 8 + b) * 8 + c] += 1;
+        }
+        assert!(boxes.iter().all(|&n| n == 8), "{boxes:?}");
+        assert_ne!(choices.of(stream(3, 1, 9), 0), choices.of(stream(3, 1, 10), 0));
     }
 
     #[test]

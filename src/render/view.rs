@@ -1,11 +1,11 @@
 //! What is seen: a surface under a light before a camera.
 
-use crate::geometry::{Kernel, Vec3, vectorised};
+use crate::geometry::{Frame, Kernel, Vec3, vectorised};
 use crate::light::Light;
 use crate::lobe::Shading;
 use crate::method::{BATCH, Batch};
 use crate::surface::{Shape, Surface, displacement};
-use crate::texture::{Footprint, Wrap};
+use crate::texture::{Footprint, Lookup, Wrap};
 
 use super::Camera;
 
@@ -23,19 +23,28 @@ pub struct View {
     pub shading: Shading,
     /// How the map on the surface wraps.
     pub wrap: Wrap,
+    /// How what lies under a footprint is averaged.
+    pub lookup: Lookup,
 }
 
 impl View {
     /// The footprint of a whole pixel at image point (x, y); None where the ray misses.
     pub fn footprint(&self, x: f64, y: f64) -> Option<Footprint> {
+        self.sight(x, y, 1.0).map(|sight| sight.footprint)
+    }
+
+    /// What the ray through image point (x, y) meets, for a sample that stands for the part `spacing` of a
+    /// pixel's side; None where it misses.
+    pub(super) fn sight(&self, x: f64, y: f64, spacing: f64) -> Option<Sight> {
         let (camera, ray) = (&self.camera, self.camera.ray(x, y));
         let hit = self.surface.intersect(camera.origin(), ray)?;
         let [along_x, along_y] = camera.ray_steps().map(|step| {
-            let moved = displacement(ray, step, hit.t, hit.plane);
+            let moved = displacement(ray, step, hit.t, hit.plane) * spacing;
             hit.gradient.map(|g| held(g.dot(&moved)))
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
-        Some(Footprint { u, v, along_x, along_y })
+        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup };
+        Some(Sight { footprint, frame: hit.frame, view: -ray.normalize() })
     }
 
     /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`). With
@@ -53,6 +62,7 @@ impl View {
         batch: &mut Batch,
     ) {
         batch.len = len;
+        batch.lookup = self.lookup;
         let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
         match (directions || self.shading == Shading::Microfacet, spacing) {
             (false, None) => points.fill::<false, false>(),
@@ -61,6 +71,16 @@ impl View {
             (true, Some(_)) => points.fill::<true, true>(),
         }
     }
+}
+
+/// A point that a ray met.
+pub(super) struct Sight {
+    /// What the sample covers of the map.
+    pub footprint: Footprint,
+    /// The tangent space there, in the world.
+    pub frame: Frame,
+    /// Unit direction to the eye, world space.
+    pub view: Vec3,
 }
 
 /// Image points on their way to a batch.
@@ -84,8 +104,12 @@ impl Points<'_> {
     }
 
     fn lit<S: Surface, const DIRECTIONS: bool, const FOOTPRINTS: bool>(self, surface: S) {
-        match self.view.light {
-            Light::Directional { direction, irradiance } => {
+        match &self.view.light {
+            Light::Environment { .. } => {
+                let light = |_: Vec3| (Vec3::z(), 0.0);
+                vectorised(Fill::<_, _, DIRECTIONS, FOOTPRINTS> { points: self, surface, light });
+            }
+            &Light::Directional { direction, irradiance } => {
                 let light = move |_: Vec3| (direction, irradiance);
                 vectorised(Fill::<_, _, DIRECTIONS, FOOTPRINTS> { points: self, surface, light });
             }

@@ -8,6 +8,7 @@ use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::method::Truth;
 use crate::render::Film;
+use crate::texture::Lookup;
 
 const SIDE: usize = 72;
 pub const TEXTURES: [&str; 3] = ["bricks", "denim", "waves"];
@@ -80,6 +81,7 @@ fn method(&(label, name, normalised, ..): &(&str, &str, bool, f64, f64)) -> Meth
         limits: "one lobe: two separate highlights become one".into(),
         normalised,
         options: if normalised { vec![] } else { vec!["form = printed".into()] },
+        lookup: Some(Lookup::Trilinear),
     }
 }
 

@@ -10,6 +10,7 @@
 //! scene is done. Systems run one after another, so that timings mean something, and use all cores
 //! inside.
 
+mod light;
 mod measure;
 mod prefilter;
 mod reference;
@@ -17,8 +18,9 @@ mod shelf;
 mod texture;
 mod trial;
 
+pub use light::LightOrigin;
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
-pub use prefilter::{BuildCost, Prefilter, PrefilterOf, Strategy};
+pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
 pub use shelf::Shelf;
 pub use texture::{BumpSource, LoadError, Map, Texture};
@@ -74,8 +76,8 @@ pub struct CameraPose {
     pub distance: f64,
 }
 
-/// A light.
-#[derive(Component, Clone, Copy, Debug)]
+/// A light that is there.
+#[derive(Component, Clone, Debug)]
 pub struct LightSource(pub Light);
 
 /// A scene: which texture, on which surface, before which camera, under which light, of which
@@ -156,6 +158,11 @@ pub enum Progress {
         /// The texture.
         texture: Entity,
     },
+    /// A light was made ready.
+    Lit {
+        /// The light.
+        light: Entity,
+    },
     /// A map was prefiltered, or a strategy refused its base lobe.
     Prefiltered {
         /// The prefilter.
@@ -220,9 +227,14 @@ impl Stagehand {
             (Stage::Texture, Stage::Prefilter, Stage::Reference, Stage::Render, Stage::Measure)
                 .chain(),
         );
-        for plugin in
-            [texture::plugin, prefilter::plugin, reference::plugin, trial::plugin, measure::plugin]
-        {
+        for plugin in [
+            texture::plugin,
+            light::plugin,
+            prefilter::plugin,
+            reference::plugin,
+            trial::plugin,
+            measure::plugin,
+        ] {
             plugin(&mut schedule);
         }
         Self { world, schedule }

@@ -6,8 +6,7 @@ use bevy_ecs::prelude::*;
 
 use super::trial::SceneView;
 use super::{Current, Halt, Progress, ReferencePlan, Seed, Stage};
-use crate::method;
-use crate::render::{Converged, Film, PixelSampler, average, render};
+use crate::render::{Converged, Film, PixelSampler, average, reference_replicate};
 
 /// A scene's converged reference. Rendered by the reference system, or put there by the author from
 /// an earlier run.
@@ -33,14 +32,13 @@ fn converge(
 ) {
     let Ok((plan, replicates)) = scenes.get_mut(current.0) else { return };
     let Some(staged) = view.of(current.0) else { return };
-    let truth = method::truth(plan.truth, &staged.map, &staged.material.base);
+    let truth = (plan.truth, &staged.map, &staged.material.base);
     let done = replicates.as_ref().map_or(0, |r| r.0.len()) as u32;
     let sampler = PixelSampler::new(plan.spp / plan.replicates);
     let stop = || halt.now();
     // Replicate 0 belongs to the trials: the reference shares no random number with them.
-    let Ok(film) = render(&staged.view, truth.as_ref(), &sampler, seed.0, done + 1, &stop) else {
-        return;
-    };
+    let replicate = reference_replicate(&staged.view, truth, &sampler, seed.0, done + 1, &stop);
+    let Ok(film) = replicate else { return };
     let mut films = replicates.map(|mut r| std::mem::take(&mut r.0)).unwrap_or_default();
     films.push(film);
     let mut scene = commands.entity(current.0);

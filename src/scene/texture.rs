@@ -36,7 +36,7 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 }
 
 /// Loads the current scene's texture if it is not there yet.
-fn load(
+pub(super) fn load(
     mut commands: Commands,
     current: Res<Current>,
     scenes: Query<&SceneOf>,

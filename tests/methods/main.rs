@@ -5,10 +5,12 @@
 mod base;
 mod bumps;
 mod energy;
+mod environment;
 mod fast;
 mod fixture;
 mod flat;
 mod kernels;
+mod lookup;
 mod magnified;
 mod rotation;
 mod soundness;

@@ -90,6 +90,7 @@ pub fn probes(from: usize) -> Vec<Probe> {
                     v: centre(j),
                     along_x: [texels, 0.0],
                     along_y: [0.0, texels],
+                    ..Footprint::whole()
                 };
                 let block = Block { at: [i * cell, j * cell], side };
                 all.push(Probe { middle, footprint, block });

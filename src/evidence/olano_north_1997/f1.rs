@@ -8,7 +8,7 @@ use crate::light::Light;
 use crate::lobe::{BaseLobe, Shading};
 use crate::render::{Camera, Film, PixelSampler, View, direction, render};
 use crate::surface::{Shape, Sphere};
-use crate::texture::{NormalMap, Wrap};
+use crate::texture::{Lookup, NormalMap, Wrap};
 
 /// The row.
 pub const ROW: Row = Row {
@@ -43,6 +43,7 @@ fn view(around: f64) -> View {
         light: Light::Directional { direction: direction(30.0, -90.0), irradiance: 1.0 },
         shading: Shading::Ndf,
         wrap: Wrap::Repeat,
+        lookup: Lookup::default(),
     }
 }
 

@@ -11,7 +11,7 @@ use crate::parameter::{Value, Values};
 use crate::pattern;
 use crate::render::{Camera, Film, PixelSampler, View, direction, render};
 use crate::surface::{Shape, WavyFrame, WavySphere};
-use crate::texture::{NormalMap, Wrap};
+use crate::texture::{Lookup, NormalMap, Wrap};
 
 /// The row.
 pub const ROW: Row = Row {
@@ -69,6 +69,7 @@ fn view(cells: usize, frame: WavyFrame) -> View {
         light: Light::Directional { direction: direction(45.0, -90.0), irradiance: 1.0 },
         shading: Shading::Ndf,
         wrap: Wrap::Repeat,
+        lookup: Lookup::default(),
     }
 }
 

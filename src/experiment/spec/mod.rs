@@ -7,6 +7,7 @@
 mod catalogue;
 mod error;
 mod item;
+mod light;
 mod limits;
 mod log;
 mod material;
@@ -32,10 +33,11 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 pub use error::{SpecError, SpecErrors};
+pub use light::{EnvironmentSource, LightSpec};
 pub use method::MethodSpec;
 pub use paper::{Experiment, PaperKeys, PaperSpec, RowKeys, RowSpec};
 pub use reference::ReferenceSpec;
-pub use scene::{CameraSpec, ImageSpec, LightSpec};
+pub use scene::{CameraSpec, ImageSpec};
 pub(crate) use suggest::no_such;
 pub use surface::{AxesSpec, Shape, SurfaceSpec, WavySphereSpec};
 pub use sweep::{Scale, SweepSpec};
@@ -130,6 +132,13 @@ impl Spec {
     }
 }
 
+/// Logs that the value of a key does not go with an environment.
+fn refuse(reader: &Reader, key: &'static str, message: &str) {
+    if let Some(item) = reader.item(key) {
+        item.error(message.to_owned(), Some("choose another value, or another light".to_owned()));
+    }
+}
+
 /// Reads everything; the spec means something only if nothing was logged.
 fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Spec {
     let name = name.to_owned();
@@ -142,13 +151,35 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
     let shape = surface.shape;
     let camera = root.section("camera", "[camera]", |r| CameraSpec::read(r, shape));
     let light = root.section("light", "[light]", |r| LightSpec::read(r, shape));
-    let material = root.section("material", "[material]", Material::read);
-    let reference = root.section("reference", "[reference]", ReferenceSpec::read);
+    let everywhere = light.is_environment();
+    let material = root.section("material", "[material]", |r| {
+        let material = Material::read(r);
+        if everywhere && material.shading != Shading::Ndf {
+            refuse(r, "shading", "facets mirror an environment with shading \"ndf\" only");
+        }
+        material
+    });
+    let reference = root.section("reference", "[reference]", |r| {
+        let reference = ReferenceSpec::read(r);
+        if everywhere && reference.truth != Truth::Bumps {
+            refuse(r, "truth", "under an environment the truth is \"bumps\" only: what heights hide of it is not known");
+        }
+        reference
+    });
     let textures = root.each_table("texture", "[texture.NAME]", |name, reader| {
         (name, TextureSpec::read(name, reader, catalogue, seed))
     });
     let methods = root.each_table("method", "[method.LABEL]", |label, reader| {
-        (label, MethodSpec::read(label, reader, catalogue))
+        let method = MethodSpec::read(label, reader, catalogue);
+        if everywhere && method.as_ref().is_some_and(|method| method.build().needs_heights()) {
+            let message =
+                format!("{} looks for shadows, which an environment does not cast", reader.name());
+            reader.error(
+                message,
+                Some("leave out its shadowing, or choose another light".to_owned()),
+            );
+        }
+        (label, method)
     });
     let context = Context { catalogue, textures, methods, shape, tiles, material, reference, seed };
     let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));

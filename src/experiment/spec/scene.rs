@@ -1,4 +1,4 @@
-//! What is seen and how: image, surface, camera, light.
+//! What is seen and how: image, surface, camera.
 
 use super::limits::Limits;
 use super::reader::Reader;
@@ -36,7 +36,7 @@ pub struct CameraSpec {
 }
 
 /// Any direction around the vertical, degrees.
-const AZIMUTH: Limits = Limits::from_to(-360.0, 360.0).degrees();
+pub(super) const AZIMUTH: Limits = Limits::from_to(-360.0, 360.0).degrees();
 
 impl CameraSpec {
     pub(super) fn read(reader: &Reader, shape: Shape) -> Self {
@@ -80,80 +80,4 @@ pub(super) fn distance_limits(shape: Shape) -> Limits {
         Shape::Sphere => Limits::above(1.0, 1e6),
         Shape::Drapery | Shape::WavySphere(_) => Limits::above(2.0, 1e6),
     }
-}
-
-/// The one light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LightSpec {
-    /// Light from very far away.
-    Directional {
-        /// Degrees above the plane z = 0 that it comes from: in (0, 90] for a plane, [−90, 90] for a
-        /// sphere.
-        elevation: f64,
-        /// Degrees from +x towards +y that it comes from.
-        azimuth: f64,
-        /// Irradiance on a plane facing it.
-        irradiance: f64,
-    },
-    /// Light from a point.
-    Point {
-        /// Where it is, scene units: above a plane, outside a sphere.
-        position: [f64; 3],
-        /// Radiant intensity: irradiance on a plane facing it at distance 1.
-        intensity: f64,
-    },
-}
-
-/// How strong a light may be.
-const STRENGTH: Limits = Limits::above(0.0, 1e6);
-
-impl LightSpec {
-    /// Its name in specs and results.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Directional { .. } => "directional",
-            Self::Point { .. } => "point",
-        }
-    }
-
-    pub(super) fn read(reader: &Reader, shape: Shape) -> Self {
-        let point = reader.choice("kind", &[("directional", false), ("point", true)]);
-        if point {
-            Self::Point {
-                position: position(reader, shape),
-                intensity: reader.real("intensity", 1.0, STRENGTH),
-            }
-        } else {
-            let elevation = match shape {
-                Shape::Plane => Limits::above(0.0, 90.0),
-                _ => Limits::from_to(-90.0, 90.0),
-            };
-            Self::Directional {
-                elevation: reader.real("elevation", 40.0, elevation.degrees()),
-                azimuth: reader.real("azimuth", 90.0, AZIMUTH),
-                irradiance: reader.real("irradiance", 1.0, STRENGTH),
-            }
-        }
-    }
-}
-
-/// Where a point light is; checked to be where it lights the surface.
-fn position(reader: &Reader, shape: Shape) -> [f64; 3] {
-    const DEFAULT: [f64; 3] = [0.0, 2.0, 2.0];
-    let Some(item) = reader.item("position") else { return DEFAULT };
-    let Some([x, y, z]) = item.point() else { return DEFAULT };
-    match shape {
-        Shape::Plane if z <= 0.0 => {
-            item.error(format!("`position` is not above the plane: z is {z}"), None);
-        }
-        Shape::Sphere if x * x + y * y + z * z <= 1.0 => {
-            item.error("`position` is inside the sphere of radius 1".to_owned(), None);
-        }
-        Shape::WavySphere(wavy) if x * x + y * y + z * z <= wavy.outside() * wavy.outside() => {
-            let message = format!("`position` is not outside the crests, at {}", wavy.outside());
-            item.error(message, None);
-        }
-        _ => {}
-    }
-    [x, y, z]
 }

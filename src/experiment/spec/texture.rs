@@ -146,7 +146,7 @@ fn read_source(reader: &Reader, catalogue: &Catalogue, seed: u64) -> Option<Text
 }
 
 /// The folder that paths in the spec start from.
-fn folder(reader: &Reader) -> PathBuf {
+pub(super) fn folder(reader: &Reader) -> PathBuf {
     reader.log().path().parent().map(PathBuf::from).unwrap_or_default()
 }
 

@@ -121,14 +121,31 @@ impl ImageError {
             other => {
                 // The decoders' own words are in the source, where there is one.
                 let what = other.source().map_or_else(|| other.to_string(), |s| s.to_string());
-                if is_about_missing_bytes(&what) {
-                    Self::Truncated { path: owned }
-                } else if is_about_features(&what) {
-                    Self::Unsupported { path: owned, what }
-                } else {
-                    Self::Damaged { path: owned, what }
-                }
+                Self::in_words(owned, what)
             }
+        }
+    }
+
+    /// What a failure of the EXR decoder itself on `path` means.
+    pub(super) fn decoding_exr(path: &Path, error: exr::error::Error) -> Self {
+        use exr::error::Error as Decoder;
+        match error {
+            Decoder::Io(source) => Self::reading(path, source),
+            Decoder::NotSupported(what) => {
+                Self::Unsupported { path: path.to_owned(), what: what.into_owned() }
+            }
+            other => Self::in_words(path.to_owned(), other.to_string()),
+        }
+    }
+
+    /// What a decoder's words on a file mean.
+    fn in_words(path: PathBuf, what: String) -> Self {
+        if is_about_missing_bytes(&what) {
+            Self::Truncated { path }
+        } else if is_about_features(&what) {
+            Self::Unsupported { path, what }
+        } else {
+            Self::Damaged { path, what }
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Normal maps and height maps from and to image files: PNG, TIFF, WebP and EXR.
+//! Normal maps and height maps from and to image files, PNG, TIFF, WebP and EXR; luminance from EXR and
+//! Radiance HDR.
 //!
 //! Image files start with the top row; maps here with the bottom one (v = 0). Reading and writing flip.
 //! Samples are taken as stored: a map is data, so gamma and colour profiles are not looked at.
@@ -6,6 +7,7 @@
 mod error;
 mod exr;
 mod heights;
+mod luminance;
 mod normals;
 mod preview;
 mod samples;
@@ -13,6 +15,7 @@ mod write;
 
 pub use error::ImageError;
 pub use heights::{HeightReading, read_height_map};
+pub use luminance::{Luminance, read_luminance};
 pub use normals::{Green, NormalReading, Zero, read_normal_map};
 pub use preview::{Preview, preview};
 pub use write::write_normal_map_png16;

@@ -150,14 +150,14 @@ fn format_of(path: &Path, file: &mut BufReader<File>) -> Result<ImageFormat, Ima
 }
 
 /// At most `count` bytes from the start, where the file is left.
-fn first_bytes(file: &mut BufReader<File>, count: u64) -> std::io::Result<Vec<u8>> {
+pub(super) fn first_bytes(file: &mut BufReader<File>, count: u64) -> std::io::Result<Vec<u8>> {
     let mut start = Vec::new();
     file.by_ref().take(count).read_to_end(&mut start)?;
     file.rewind()?;
     Ok(start)
 }
 
-fn check_exr(path: &Path, file: &mut BufReader<File>) -> Result<(), ImageError> {
+pub(super) fn check_exr(path: &Path, file: &mut BufReader<File>) -> Result<(), ImageError> {
     let start = first_bytes(file, exr::HEADER).map_err(|e| ImageError::reading(path, e))?;
     if let Some(what) = exr::refused_compression(&start) {
         return Err(ImageError::Unsupported { path: path.to_owned(), what: what.into() });
@@ -188,7 +188,7 @@ fn check_size(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError
     check_most(path, (width, height))
 }
 
-fn check_most(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError> {
+pub(super) fn check_most(path: &Path, (width, height): (u32, u32)) -> Result<(), ImageError> {
     // A square of 8192 is the largest in all.
     let limit = if width > MOST || height > MOST { MOST } else { 1 << 13 };
     if limit == MOST || u64::from(width) * u64::from(height) > MOST_PIXELS {
