@@ -2,17 +2,18 @@
 
 use rayon::prelude::*;
 
-use crate::light::Light;
+use crate::geometry::Vec3;
 use crate::render::{Film, View};
 
 /// Points along a pixel's side.
 const POINTS: usize = 4;
 
 /// `highlights` on a body whose albedo at texture coordinates (u, v) is `albedo`, as bright as `part` of the
-/// brightest highlight where albedo and cosine are 1. Its normals are those of the surface without a map.
+/// brightest highlight where albedo and cosine are 1. Its normals are those of the surface without a map; `to_light` is the unit direction to the light.
 pub fn on_body(
     highlights: &Film,
     view: &View,
+    to_light: Vec3,
     part: f32,
     albedo: impl Fn([f64; 2]) -> f64 + Sync,
 ) -> Film {
@@ -21,10 +22,6 @@ pub fn on_body(
     let lit = |x: f64, y: f64| {
         let ray = view.camera.ray(x, y);
         let hit = view.surface.intersect(view.camera.origin(), ray)?;
-        let to_light = match view.light {
-            Light::Directional { direction, .. } => direction,
-            near @ Light::Point { .. } => near.seen_from(hit.point).0,
-        };
         Some(albedo(hit.uv) * hit.frame.normal.dot(&to_light).max(0.0))
     };
     let pixel = |i: usize| {

@@ -47,7 +47,7 @@ fn make(_: &Task) -> Result<Exhibit, Halted> {
     let walked: f64 = angles.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
     let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.min(a), h.max(a)));
     let length: f64 = xs().map(|x| (1.0 + curve(x)[1].powi(2)).sqrt() * dx).sum();
-    // The share of the curve whose normals lie in a cell, over the cell's size; and by summing 1/|κ|.
+    // The share of the curve whose normals lie in a cell, over the cell's size.
     let cell = (high - low) / CELLS as f64;
     let mut share = [0.0; CELLS];
     for (x, a) in xs().zip(&angles) {

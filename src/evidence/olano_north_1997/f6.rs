@@ -4,15 +4,19 @@ use super::super::{
     Axis, Chart, Claim, Drawing, Exhibit, Figure, Halted, Row, Series, Table, Task,
 };
 use super::densities::{Density, over_sphere};
-use super::f5::SIGMA;
 use crate::geometry::{HemisphereGrid, Vec3};
+use crate::parameter::{Domain, Parameter};
 
 /// The row.
 pub const ROW: Row = Row {
     name: "olano-f6",
     title: "A 2D Gaussian restricted to a circle: a cluster of directions about its mean",
     parts: &[],
-    parameters: &[SIGMA],
+    parameters: &[Parameter {
+        name: "sigma",
+        meaning: "standard deviation of the Gaussian about its mean",
+        domain: Domain::Real { default: 0.35, min: 0.05, max: 1.0 },
+    }],
     secs: 0.1,
     make,
 };

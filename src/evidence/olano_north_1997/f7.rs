@@ -111,13 +111,13 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         Claim::at_most(
             "largest difference of the mixture's mean from p u₁ + (1 − p) u₂",
             "the mean is an average of the means (§5)",
-            1e-9,
+            1e-6,
             gap(&both.mean, &sum.mean),
         ),
         Claim::at_most(
             "largest difference of its second moments from p E₁ + (1 − p) E₂",
             "second moments about the origin combine linearly (§5)",
-            1e-9,
+            1e-6,
             gap(&both.second, &sum.second),
         ),
         Claim::shown(
