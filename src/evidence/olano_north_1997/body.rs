@@ -9,7 +9,8 @@ use crate::render::{Film, View};
 const POINTS: usize = 4;
 
 /// `highlights` on a body whose albedo at texture coordinates (u, v) is `albedo`, as bright as `part` of the
-/// brightest highlight where albedo and cosine are 1. Its normals are those of the surface without a map; `to_light` is the unit direction to the light.
+/// brightest highlight where albedo and cosine are 1. Its normals are those of the surface without a map; `to_light`
+/// is the unit direction to the light.
 pub fn on_body(
     highlights: &Film,
     view: &View,

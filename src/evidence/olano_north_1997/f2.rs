@@ -170,8 +170,9 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     }
     exhibit.tables = vec![table];
     exhibit.remarks = vec![format!(
-        "Images have a grey body under the highlights, shaded from vertices; no number here counts it. From {} to {} triangles the image changes by {:.4} of its peak from vertices, by {:.4} with the map. Meshes, \
-         ripples, light and camera are chosen here; the paper prints none of them.",
+        "Images have a grey body under the highlights, shaded from vertices; no number here counts it. From {} to {} \
+         triangles the image changes by {:.4} of its peak from vertices, by {:.4} with the map. Meshes, ripples, \
+         light and camera are chosen here; the paper prints none of them.",
         triangles(FEW),
         triangles(FEWER),
         phong,

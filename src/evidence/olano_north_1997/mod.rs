@@ -13,6 +13,7 @@ mod n;
 mod s;
 #[cfg(test)]
 mod tests;
+mod times;
 
 use super::Paper;
 
