@@ -9,14 +9,14 @@ use super::spec::{
     Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
-use crate::light::environment::{Environment, maps, read};
+use crate::light::environment::{Environment, Read, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
-    ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture,
-    Tiling, TrialOf,
+    BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
+    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
+    Texture, Tiling, TrialOf,
 };
 use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
@@ -279,8 +279,9 @@ fn spawn_light(world: &mut World, spec: &LightSpec) -> Entity {
         }
         LightSpec::Environment { source, rotation, intensity, filter } => {
             let origin = LightOrigin(Box::new(move || {
-                let environment = Arc::new(surroundings(&source, rotation, intensity)?);
-                Ok(Light::Environment { environment, filter })
+                let Read { environment, notes } = surroundings(&source, rotation, intensity)?;
+                let environment = Arc::new(environment);
+                Ok(Kindled { light: Light::Environment { environment, filter }, notes })
             }));
             world.spawn(origin).id()
         }
@@ -292,12 +293,13 @@ fn surroundings(
     source: &EnvironmentSource,
     rotation: f64,
     intensity: f64,
-) -> Result<Environment, LoadError> {
+) -> Result<Read, LoadError> {
     match source {
         EnvironmentSource::Map { name, width, values } => {
             let entry = maps::find(name).expect("the spec names registered maps");
             let radiance = (entry.build)(values);
-            Ok(Environment::of(&radiance, width / 2, rotation, intensity))
+            let environment = Environment::of(&*radiance, width / 2, rotation, intensity);
+            Ok(Read { environment, notes: Vec::new() })
         }
         EnvironmentSource::File { path } => {
             read(path, rotation, intensity).map_err(|error| LoadError(error.to_string()))

@@ -18,7 +18,7 @@ mod shelf;
 mod texture;
 mod trial;
 
-pub use light::LightOrigin;
+pub use light::{Kindled, LightOrigin};
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;

@@ -17,7 +17,7 @@ use super::fixture::{BASES, Case, bumps, cases, footprint, hemisphere, single, t
 fn environment(name: &str, height: usize) -> Arc<Environment> {
     let entry = maps::find(name).unwrap();
     let radiance = (entry.build)(&Values::defaults(entry.parameters));
-    Arc::new(Environment::of(&radiance, height, 20.0, 1.0))
+    Arc::new(Environment::of(&*radiance, height, 20.0, 1.0))
 }
 
 /// Unit directions from straight above to all but level.
