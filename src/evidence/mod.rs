@@ -11,7 +11,9 @@ mod figure;
 mod fournier_1992;
 mod gather;
 mod paper;
+mod schilling_1997;
 mod table;
+mod trials;
 
 pub use claim::{Claim, Quantity, Verdict};
 pub use exhibit::{Evidence, Exhibit, Timed};
@@ -21,3 +23,4 @@ pub use figure::{
 pub use gather::{Findings, Gathered, gather};
 pub use paper::{FinishedPart, Halted, Paper, Row, Task, find, keys, papers};
 pub use table::{Cell, Table};
+use trials::{rmse, trials};
