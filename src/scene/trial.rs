@@ -111,8 +111,7 @@ fn expose(
     current: Res<Current>,
     (halt, seed): (Res<Halt>, Res<Seed>),
     view: SceneView,
-    prefilters: Query<(&Prefilter, &PrefilterOf, &LookupBy)>,
-    strategies: Query<&Strategy>,
+    (prefilters, strategies): (Query<(&Prefilter, &PrefilterOf, &LookupBy)>, Query<&Strategy>),
     pending: Query<(Entity, &TrialOf, &Spp), Without<Exposure>>,
     mut progress: MessageWriter<Progress>,
 ) {
