@@ -12,7 +12,9 @@ mod fournier_1992;
 mod gather;
 mod olano_north_1997;
 mod paper;
+mod schilling_1997;
 mod table;
+mod trials;
 
 pub use claim::{Claim, Quantity, Verdict};
 pub use exhibit::{Evidence, Exhibit, Timed};
@@ -22,3 +24,4 @@ pub use figure::{
 pub use gather::{Findings, Gathered, gather};
 pub use paper::{FinishedPart, Halted, Paper, Row, Task, find, keys, papers};
 pub use table::{Cell, Table};
+use trials::{rmse, trials};

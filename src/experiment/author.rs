@@ -54,6 +54,8 @@ pub struct PlannedScene {
     pub tiling: Tiling,
     /// Distance of its camera.
     pub distance: f64,
+    /// Degrees above the plane z = 0 that its camera stands at.
+    pub elevation: f64,
     /// A file-name-safe identifier, unique in the experiment.
     pub slug: String,
     /// Its prefilters, one a method in the spec's order.
@@ -92,10 +94,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .collect();
     let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
     let light = spawn_light(world, &spec.light);
-    let placements: Vec<Placement> = placements(spec)
-        .into_iter()
-        .map(|(pose, tiling)| Placement::spawn(world, pose, tiling))
-        .collect();
+    let placements = placements(world, spec);
 
     let mut plan = Plan { textures, scenes: Vec::new() };
     for (index, &texture) in plan.textures.iter().enumerate() {
@@ -114,6 +113,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
                     base,
                     tiling: placement.tiling,
                     distance: placement.distance,
+                    elevation: placement.elevation,
                     slug,
                     trials: spawn_trials(world, spec, scene, &prefilters),
                     prefilters: prefilters.clone(),
@@ -128,31 +128,36 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
 struct Placement {
     camera: Entity,
     distance: f64,
+    elevation: f64,
     tiling: Tiling,
 }
 
-impl Placement {
-    fn spawn(world: &mut World, pose: CameraPose, tiling: Tiling) -> Self {
-        Self { camera: world.spawn(pose).id(), distance: pose.distance, tiling }
-    }
-}
-
-fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
-    let pose = |distance: f64| {
-        let (at, image) = (&spec.camera, &spec.image);
-        let origin = direction(at.elevation, at.azimuth) * distance;
-        let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
-        CameraPose { camera, distance }
-    };
-    match &spec.sweep.scale {
-        Scale::TexelsPerPixel(list) => list
-            .iter()
-            .map(|&texels| (pose(spec.camera.distance), Tiling::TexelsPerPixel(texels)))
-            .collect(),
+/// Every elevation by every scale.
+fn placements(world: &mut World, spec: &Spec) -> Vec<Placement> {
+    let of_scale: Vec<(f64, Tiling)> = match &spec.sweep.scale {
+        Scale::TexelsPerPixel(list) => {
+            let tiled = |&texels| (spec.camera.distance, Tiling::TexelsPerPixel(texels));
+            list.iter().map(tiled).collect()
+        }
         Scale::Distance { distances, tiles } => {
-            distances.iter().map(|&distance| (pose(distance), Tiling::Tiles(*tiles))).collect()
+            distances.iter().map(|&distance| (distance, Tiling::Tiles(*tiles))).collect()
+        }
+    };
+    let mut all = Vec::new();
+    for &elevation in &spec.sweep.elevations {
+        for &(distance, tiling) in &of_scale {
+            let camera = world.spawn(pose(spec, elevation, distance)).id();
+            all.push(Placement { camera, distance, elevation, tiling });
         }
     }
+    all
+}
+
+fn pose(spec: &Spec, elevation: f64, distance: f64) -> CameraPose {
+    let (at, image) = (&spec.camera, &spec.image);
+    let origin = direction(elevation, at.azimuth) * distance;
+    let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
+    CameraPose { camera, distance }
 }
 
 fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> Entity {
@@ -307,7 +312,7 @@ fn surroundings(
     }
 }
 
-/// A scene's file-name-safe identifier: its texture, its lobe if there are several, its scale.
+/// A scene's file-name-safe identifier: its texture, its lobe and elevation if there are several, its scale.
 fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> String {
     let safe = |text: &str| -> String {
         text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
@@ -320,6 +325,9 @@ fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> 
     }
     if spec.sweep.lobes.len() > 1 {
         parts.push(format!("{}-{}", base.name(), base.parameter()));
+    }
+    if spec.sweep.elevations.len() > 1 {
+        parts.push(format!("from-{}", placement.elevation));
     }
     parts.push(match placement.tiling {
         Tiling::TexelsPerPixel(texels) => format!("{texels}-texels"),

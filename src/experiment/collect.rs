@@ -122,6 +122,7 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
         },
         texels_per_pixel,
         distance: scene.distance,
+        elevation: scene.elevation,
     }
 }
 

@@ -102,6 +102,8 @@ pub struct SceneKey {
     pub texels_per_pixel: f64,
     /// Distance from the camera to the origin, scene units.
     pub distance: f64,
+    /// Degrees above the plane z = 0 that the camera stands at.
+    pub elevation: f64,
 }
 
 /// What was found for one scene.

@@ -97,15 +97,17 @@ impl Spread for EllipticLobe {
         let y = dot(h, self.bitangent) * inverse_cosine;
         let q = quadratic(self.inverse, x - self.mean[0], y - self.mean[1]).max(0.0);
         let t = x * x + y * y;
-        // 1 / (h·pole)⁴ of a unit h.
-        let secant4 = (1.0 + t) * (1.0 + t);
-        let fall = match self.profile {
-            Profile::Student { exponent: s } => {
-                exp32(-0.5 * (s + 4.0) * ln_1p32(q / s) + 2.0 * ln_1p32(t))
-            }
-            Profile::Gaussian => exp32(-0.5 * q) * secant4,
-            Profile::Ggx => secant4 / ((1.0 + q) * (1.0 + q)),
+        // Each profile falls as e^(−q/2) or as a power of 1 + q/s. Told by numbers and not by a branch, so that
+        // loops over lanes become vector code.
+        let (tail, per, gaussian) = match self.profile {
+            Profile::Student { exponent: s } => (-0.5 * (s + 4.0), 1.0 / s, false),
+            Profile::Gaussian => (0.0, 0.0, true),
+            Profile::Ggx => (-2.0, 1.0, false),
         };
+        let power = tail * ln_1p32(per * q);
+        let fall = if gaussian { -0.5 * q } else { power };
+        // With 1 / (h·pole)⁴ of a unit h, (1 + t)².
+        let fall = exp32(fall + 2.0 * ln_1p32(t));
         if cosine > 0.0 { self.peak * fall } else { 0.0 }
     }
 

@@ -124,6 +124,7 @@ fn key(texture: &str, scale: f64) -> SceneKey {
         shading: "ndf".into(),
         texels_per_pixel: scale,
         distance: scale * 2.5,
+        elevation: 40.0,
     }
 }
 

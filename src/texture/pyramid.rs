@@ -27,6 +27,9 @@ pub trait Moments<const C: usize>: Send + Sync {
     }
 }
 
+/// Numbers behind the last cell, so that any channel can be the first of a vector load.
+const PADDING: usize = 4;
+
 /// Where a stored level stands in a pyramid's list of cells.
 #[derive(Clone, Copy, Debug)]
 struct Level {
@@ -52,7 +55,7 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
         const { assert!(C > 0 && C <= 12, "three vectors hold a cell") };
         let sizes = level_sizes(map.width(), map.height());
         let cells: usize = sizes[1..].iter().map(|(width, height)| width * height).sum();
-        let mut channels = Vec::with_capacity(cells * C + 4);
+        let mut channels = Vec::with_capacity(cells * C + PADDING);
         let mut levels = Vec::with_capacity(sizes.len() - 1);
         let mut below: Vec<[f32; C]> = Vec::new();
         for pair in sizes.windows(2) {
@@ -67,7 +70,7 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
         }
         let (cells, _) = channels.as_chunks_mut::<C>();
         cells.par_iter_mut().with_min_len(4096).for_each(|cell| *cell = moments.store(*cell));
-        channels.extend([0.0; 4]);
+        channels.extend([0.0; PADDING]);
         Self { moments, levels, channels }
     }
 
@@ -90,7 +93,8 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
 
     /// Memory of the stored levels, in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.channels.as_slice())
+        // Without the padding behind the last cell.
+        size_of_val(&self.channels[..self.channels.len() - PADDING])
     }
 
     /// All cells of `level`, row by row from v = 0.

@@ -3,7 +3,7 @@
 use crate::experiment::results::SceneResult;
 
 use super::super::{Claim, Exhibit, Halted, Row, Table, Task};
-use super::images::{rmse, trials};
+use super::super::{rmse, trials};
 
 /// The row.
 pub const ROW: Row = Row {

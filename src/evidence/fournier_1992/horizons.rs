@@ -12,8 +12,8 @@ use crate::texture::{Footprint, HorizonMap};
 use super::super::{
     Claim, Drawing, Exhibit, Field, Figure, Halted, Images, Panel, Quantity, Row, Table, Task,
 };
+use super::super::{rmse, trials};
 use super::f3::EXPONENT;
-use super::images::{rmse, trials};
 use super::surfaces::plot;
 use super::textures::Subject;
 

@@ -163,15 +163,13 @@ pub fn compare(grid: &HemisphereGrid, found: &[f32], truth: &[f32], mean: Vec3) 
     }
 }
 
-/// Length over width of the light in an image, the angle of its length from the image's horizontal in
-/// degrees within ±90, and its length and width in pixels (standard deviations): by second moments of the
-/// square of radiance, so that the highlight counts and the haze does not.
+/// The size of the light in an image, by its second moments.
 pub fn highlight(film: &crate::render::Film) -> Highlight {
     let (mut total, mut x, mut y) = (0.0, 0.0, 0.0);
     let pixels = || {
         film.pixels().iter().enumerate().map(|(i, &r)| {
             let at = [(i % film.width()) as f64, (i / film.width()) as f64];
-            (f64::from(r).powi(2), at)
+            (f64::from(r), at)
         })
     };
     for (weight, at) in pixels() {
@@ -192,7 +190,10 @@ pub fn highlight(film: &crate::render::Film) -> Highlight {
 /// What [`highlight`] measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Highlight {
+    /// Standard deviation along its longer axis, pixels.
     pub length: f64,
+    /// The same along the other.
     pub width: f64,
+    /// Of the longer axis from the image's horizontal, degrees within ±90.
     pub angle: f64,
 }

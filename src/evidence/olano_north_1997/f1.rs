@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::super::{Claim, Drawing, Exhibit, Figure, Halted, Images, Panel, Row, Table, Task};
+use super::body::on_body;
 use super::common::{EXPONENT, Highlight, highlight, method, prefiltered};
+use crate::geometry::Vec3;
 use crate::light::Light;
 use crate::lobe::{BaseLobe, Shading};
 use crate::render::{Camera, Film, PixelSampler, View, direction, render};
@@ -25,8 +27,8 @@ pub const ROW: Row = Row {
 const SIDE: usize = 256;
 /// Samples a pixel of converged images.
 const CONVERGED: u32 = 256;
-/// Tiles round the sphere, four ripples to a tile: ripples some 17 pixels apart, and one.
-const SCALES: [(&str, f64); 2] = [("ripples seen", 8.0), ("ripples under-sampled", 136.0)];
+/// Tiles round the sphere, four ripples to a tile: ripples some 20 pixels apart, and three to a pixel.
+const SCALES: [(&str, f64); 2] = [("ripples seen", 8.0), ("ripples under-sampled", 512.0)];
 
 /// Ripples along v with slopes up to 0.3, or none.
 fn map(slope: f64) -> Arc<NormalMap> {
@@ -40,11 +42,16 @@ fn view(around: f64) -> View {
     View {
         camera: Camera::orbiting(6.0, 10.0, -90.0, 22.0, SIDE, SIDE),
         surface: Shape::Sphere(Sphere::new()).tiled(around / std::f64::consts::TAU, 1.0),
-        light: Light::Directional { direction: direction(30.0, -90.0), irradiance: 1.0 },
+        light: Light::Directional { direction: to_light(), irradiance: 1.0 },
         shading: Shading::Ndf,
         wrap: Wrap::Repeat,
         lookup: Lookup::default(),
     }
+}
+
+/// Unit direction to the light.
+fn to_light() -> Vec3 {
+    direction(30.0, -90.0)
 }
 
 struct Shots<'a> {
@@ -74,8 +81,8 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let smooth = shots.take("unfiltered", &flat, SCALES[0].1, 16)?;
     let mut table = Table::new(
         "highlights",
-        "The highlight's size by second moments of the square of radiance, which way its length runs, how much \
-         neighbouring rows differ, and the error against the converged image.",
+        "The highlight's size by second moments of its radiance, which way its length runs, how much neighbouring \
+         rows differ, and the error against the converged image.",
         &[
             "image",
             "length, pixels",
@@ -89,7 +96,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     );
     let own = highlight(&smooth);
     table.push(row("no ripples", own, &smooth, [f64::NAN; 2]));
-    let mut panels = vec![Panel::new("smooth", "no ripples", Arc::new(smooth))];
+    let mut panels = vec![Panel::new("smooth", "no ripples", textured(&smooth, SCALES[0].1))];
     let mut found = vec![];
     for (label, around) in SCALES {
         let converged = shots.take("unfiltered", &rippled, around, CONVERGED)?;
@@ -100,8 +107,9 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         table.push(row(label, shape, &filtered, errors));
         found.push((shape, roughness(&filtered), errors));
         let stem = format!("{}", around as usize);
-        let film = |name: &str, what: &str, film| {
-            Panel::new(&format!("{name}-{stem}"), format!("{what}, {label}"), Arc::new(film))
+        let film = |name: &str, what: &str, film: Film| {
+            let film = textured(&film, around);
+            Panel::new(&format!("{name}-{stem}"), format!("{what}, {label}"), film)
         };
         panels.push(film("filtered", "filtered", filtered).remarked("1 sample a pixel"));
         panels.push(film("unfiltered", "unfiltered", unfiltered).remarked("1 sample a pixel"));
@@ -169,9 +177,19 @@ fn claims(own: Highlight, found: &[(Highlight, f64, [f64; 2])]) -> Vec<Claim> {
         Claim::not_applicable(
             "the colour texture",
             "a regular image texture",
-            "there is no colour here: bumps are all that is between a filter and its error",
+            "there is no colour here: images have a grey texture, which no number here counts",
         ),
     ]
+}
+
+/// The highlights on a grey check, a tile of the map twice on either axis, but no smaller than is seen.
+fn textured(highlights: &Film, around: f64) -> Arc<Film> {
+    let checks = (64.0 / around).min(2.0);
+    let albedo = |[u, v]: [f64; 2]| {
+        let check = (checks * u).floor() + (checks * v).floor();
+        if check.rem_euclid(2.0) == 0.0 { 1.0 } else { 0.4 }
+    };
+    Arc::new(on_body(highlights, &view(around), to_light(), 0.15, albedo))
 }
 
 fn row(label: &str, shape: Highlight, film: &Film, errors: [f64; 2]) -> Vec<super::super::Cell> {

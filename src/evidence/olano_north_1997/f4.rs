@@ -47,7 +47,7 @@ fn make(_: &Task) -> Result<Exhibit, Halted> {
     let walked: f64 = angles.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
     let (low, high) = angles.iter().fold((f64::MAX, f64::MIN), |(l, h), &a| (l.min(a), h.max(a)));
     let length: f64 = xs().map(|x| (1.0 + curve(x)[1].powi(2)).sqrt() * dx).sum();
-    // The share of the curve whose normals lie in a cell, over the cell's size; and by summing 1/|κ|.
+    // The share of the curve whose normals lie in a cell, over the cell's size.
     let cell = (high - low) / CELLS as f64;
     let mut share = [0.0; CELLS];
     for (x, a) in xs().zip(&angles) {
@@ -84,15 +84,17 @@ fn make(_: &Task) -> Result<Exhibit, Halted> {
 fn figures(angles: &[f64], low: f64, cell: f64, share: &[f64]) -> Vec<Figure> {
     let series = |label: &str, points, joined| Series { label: label.into(), points, joined };
     let every = POINTS / 12;
-    let mut drawn =
-        vec![series("curve", xs().step_by(50).map(|x| [x, curve(x)[0]]).collect(), true)];
-    for (k, x) in xs().enumerate().skip(every / 2).step_by(every) {
+    let has_normal = |k: usize| k % every == every / 2;
+    let mut comb = vec![];
+    for (k, x) in xs().enumerate().filter(|(k, _)| k % 50 == 0 || has_normal(*k)) {
         let ([y, _, _], (sin, cos)) = (curve(x), libm::sincos(angles[k]));
-        let label = if drawn.len() == 1 { "normals" } else { "" };
-        drawn.push(series(label, vec![[x, y], [x - 0.25 * sin, y + 0.25 * cos]], true));
+        comb.push([x, y]);
+        if has_normal(k) {
+            comb.extend([[x - 0.25 * sin, y + 0.25 * cos], [x, y]]);
+        }
     }
-    let circle = (0..=90).map(|k| {
-        let (sin, cos) = libm::sincos((4.0 * f64::from(k)).to_radians());
+    let arc = (0..=60).map(|k| {
+        let (sin, cos) = libm::sincos((3.0 * f64::from(k)).to_radians());
         [cos, sin]
     });
     let images = angles.iter().skip(every / 2).step_by(every).map(|a| {
@@ -100,8 +102,8 @@ fn figures(angles: &[f64], low: f64, cell: f64, share: &[f64]) -> Vec<Figure> {
         [-sin, cos]
     });
     let gauss = vec![
-        series("unit circle", circle.collect(), true),
-        series("the normals of the left figure", images.collect(), false),
+        series("unit circle, its upper half", arc.collect(), true),
+        series("normals of the curve", images.collect(), false),
     ];
     let middles = share.iter().enumerate();
     let density =
@@ -110,7 +112,11 @@ fn figures(angles: &[f64], low: f64, cell: f64, share: &[f64]) -> Vec<Figure> {
         Drawing::Chart(Chart { x: Axis::linear(x), y: Axis::linear(y), series })
     };
     vec![
-        Figure::new("curve", "A section of a curve with normals.", chart("x", "y", drawn)),
+        Figure::new(
+            "curve",
+            "A section of a curve with normals.",
+            chart("x", "y", vec![series("curve with its normals", comb, true)]),
+        ),
         Figure::new(
             "gauss-map",
             "Its Gauss map: those normals on the unit circle.",

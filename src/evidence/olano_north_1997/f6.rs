@@ -4,15 +4,19 @@ use super::super::{
     Axis, Chart, Claim, Drawing, Exhibit, Figure, Halted, Row, Series, Table, Task,
 };
 use super::densities::{Density, over_sphere};
-use super::f5::SIGMA;
 use crate::geometry::{HemisphereGrid, Vec3};
+use crate::parameter::{Domain, Parameter};
 
 /// The row.
 pub const ROW: Row = Row {
     name: "olano-f6",
     title: "A 2D Gaussian restricted to a circle: a cluster of directions about its mean",
     parts: &[],
-    parameters: &[SIGMA],
+    parameters: &[Parameter {
+        name: "sigma",
+        meaning: "standard deviation of the Gaussian about its mean",
+        domain: Domain::Real { default: 0.35, min: 0.05, max: 1.0 },
+    }],
     secs: 0.1,
     make,
 };
@@ -107,24 +111,22 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     Ok(exhibit)
 }
 
-/// The circle and contours of the Gaussian, as the paper draws them.
+/// Half the circle and contours of the Gaussian about its top, as the paper draws them.
 fn plane(sigma: f64) -> Figure {
-    let ring = |radius: f64, centre: f64| -> Vec<[f64; 2]> {
+    let ring = |label: String, radius: f64, centre: f64, degrees: i32| {
         let of = |k: i32| {
-            let (sin, cos) = libm::sincos((6.0 * f64::from(k)).to_radians());
-            [centre + radius * cos, radius * sin]
+            let (sin, cos) = libm::sincos(f64::from(degrees * k).to_radians());
+            [radius * cos, centre + radius * sin]
         };
-        (0..=60).map(of).collect()
+        Series { label, points: (0..=60).map(of).collect(), joined: true }
     };
-    let mut series =
-        vec![Series { label: "unit circle".into(), points: ring(1.0, 0.0), joined: true }];
-    for times in [1, 2, 3] {
-        series.push(Series {
-            label: format!("{times}σ"),
-            points: ring(f64::from(times) * sigma, 1.0),
-            joined: true,
-        });
-    }
+    let tangent = vec![[-1.5, 1.0], [1.5, 1.0]];
+    let series = vec![
+        ring("unit circle, its upper half".into(), 1.0, 0.0, 3),
+        ring("σ".into(), sigma, 1.0, 6),
+        ring("2σ".into(), 2.0 * sigma, 1.0, 6),
+        Series { label: "tangent at the mean".into(), points: tangent, joined: true },
+    ];
     let chart = Chart { x: Axis::linear("x"), y: Axis::linear("y"), series };
     Figure::new(
         "plane",

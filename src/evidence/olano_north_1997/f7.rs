@@ -111,13 +111,13 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         Claim::at_most(
             "largest difference of the mixture's mean from p u₁ + (1 − p) u₂",
             "the mean is an average of the means (§5)",
-            1e-9,
+            1e-6,
             gap(&both.mean, &sum.mean),
         ),
         Claim::at_most(
             "largest difference of its second moments from p E₁ + (1 − p) E₂",
             "second moments about the origin combine linearly (§5)",
-            1e-9,
+            1e-6,
             gap(&both.second, &sum.second),
         ),
         Claim::shown(
@@ -159,21 +159,22 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
 
 /// Contours at one and two standard deviations.
 fn drawn(means: [[f64; 2]; 2], v: f64, both: Moments) -> Figure {
-    let ring = |label: String, mean: [f64; 2], s: [f64; 3], times: f64| {
+    let ring = |label: String, mean: [f64; 2], s: [f64; 3], times: f64, turn: f64| {
         // S = L Lᵀ.
         let l = [s[0].sqrt(), s[1] / s[0].sqrt()];
         let rest = (s[2] - l[1] * l[1]).max(0.0).sqrt();
         let points = (0..=72).map(|k| {
-            let (sin, cos) = libm::sincos((5.0 * f64::from(k)).to_radians());
+            let (sin, cos) = libm::sincos((turn * f64::from(k) / 72.0).to_radians());
             [mean[0] + times * l[0] * cos, mean[1] + times * (l[1] * cos + rest * sin)]
         });
         Series { label, points: points.collect(), joined: true }
     };
-    let mut series = vec![ring("unit circle".into(), [0.0; 2], [1.0, 0.0, 1.0], 1.0)];
+    let mut series =
+        vec![ring("unit circle, its upper half".into(), [0.0; 2], [1.0, 0.0, 1.0], 1.0, 180.0)];
     for times in [1.0, 2.0] {
-        series.push(ring(format!("first, {times}σ"), means[0], [v, 0.0, v], times));
-        series.push(ring(format!("second, {times}σ"), means[1], [v, 0.0, v], times));
-        series.push(ring(format!("mixture, {times}σ"), both.mean, both.covariance(), times));
+        series.push(ring(format!("first, {times}σ"), means[0], [v, 0.0, v], times, 360.0));
+        series.push(ring(format!("second, {times}σ"), means[1], [v, 0.0, v], times, 360.0));
+        series.push(ring(format!("mixture, {times}σ"), both.mean, both.covariance(), times, 360.0));
     }
     let chart = Chart { x: Axis::linear("x"), y: Axis::linear("y"), series };
     Figure::new(

@@ -1,5 +1,6 @@
 //! Olano and North 1997, Normal Distribution Mapping.
 
+mod body;
 mod common;
 mod densities;
 mod f1;
@@ -12,6 +13,7 @@ mod n;
 mod s;
 #[cfg(test)]
 mod tests;
+mod times;
 
 use super::Paper;
 

@@ -7,7 +7,7 @@ use super::material::{Material, read_lobe};
 use super::method::{LOOKUPS, MethodSpec};
 use super::reader::Reader;
 use super::reference::ReferenceSpec;
-use super::scene::{Shape, distance_limits};
+use super::scene::{Shape, distance_limits, elevation_limits};
 use super::texture::TextureSpec;
 use crate::lobe::BaseLobe;
 use crate::texture::Lookup;
@@ -25,6 +25,8 @@ pub struct SweepSpec {
     pub unfiltered_spp: Vec<u32>,
     /// How small the bumps are.
     pub scale: Scale,
+    /// Degrees above the plane z = 0 that the camera stands at, in the order of the spec; at least one.
+    pub elevations: Vec<f64>,
     /// The base lobes, in the order of the spec; at least one.
     pub lobes: Vec<BaseLobe>,
 }
@@ -52,6 +54,8 @@ pub(super) struct Context<'a> {
     /// The tables under `[method]`; `None` for one that is wrong.
     pub methods: Vec<(&'a str, Option<MethodSpec>)>,
     pub shape: Shape,
+    /// The camera's own elevation.
+    pub elevation: f64,
     /// The key `tiles` of `[surface]` and its value.
     pub tiles: Option<(Item<'a>, f64)>,
     pub material: Material,
@@ -80,6 +84,7 @@ impl SweepSpec {
             textures,
             methods,
             scale: read_scale(reader, context),
+            elevations: read_elevations(reader, context),
             lobes: read_lobes(reader, &context.material),
             spp,
             unfiltered_spp,
@@ -176,6 +181,14 @@ fn continued(spp: &[u32], most: u32) -> Vec<u32> {
         counts.push(next);
     }
     counts
+}
+
+/// The elevations of the sweep, or the camera's one.
+fn read_elevations(reader: &Reader, context: &Context) -> Vec<f64> {
+    let limits = elevation_limits(context.shape);
+    let list = reader.item("elevation");
+    let list = list.map(|list| list.list("elevations", |item| item.real(limits)));
+    list.unwrap_or_else(|| vec![context.elevation])
 }
 
 fn read_scale(reader: &Reader, context: &Context) -> Scale {

@@ -111,7 +111,9 @@ use = "averaged"
 fn a_rich_spec_is_read_as_written() {
     let spec = parse(RICH).unwrap();
     assert_eq!(spec.light, LightSpec::Point { position: [0.0, 3.5, 1.0], intensity: 1.0 });
-    let SweepSpec { textures, methods, spp, unfiltered_spp, scale, lobes } = &spec.sweep;
+    let SweepSpec { textures, methods, spp, unfiltered_spp, scale, elevations, lobes } =
+        &spec.sweep;
+    assert_eq!(elevations, &[spec.camera.elevation]);
     assert_eq!(
         (spp.as_slice(), unfiltered_spp.as_slice()),
         ([1, 16].as_slice(), [1, 64].as_slice())

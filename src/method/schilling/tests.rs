@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use super::roughness::{carried, covariance, factor, widest};
 use super::*;
 use crate::lobe::Spread;
-use crate::method::Silent;
 use crate::method::one_lobe::OneLobe;
+use crate::method::{Entry, Silent};
 use crate::parameter::Value;
 use crate::texture::{Footprint, Pyramid, Wrap};
 
