@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use wrinkle::texture::{Footprint, Lookup, NormalMap, Wrap};
 
-use super::fixture::{COARSE, COARSE_ERROR, bumps, cases, half_vectors, moments, single};
+use super::fixture::{COARSE, COARSE_ERROR, Case, bumps, cases, half_vectors, moments, single};
 
 /// A footprint of the whole of a map that repeats, longer than wide, by any lookup.
 fn long(lookup: Lookup) -> Footprint {
@@ -68,7 +68,9 @@ fn only_trilinear_lookups_blur_across_a_long_footprint() {
         along_y: [0.0, 32.0 / 64.0],
         lookup,
     };
-    for case in cases().iter().filter(|case| case.card.keeps_roughness) {
+    // Eight bits round a cell's numbers by as much as a lookup changes them.
+    let fine = |case: &&Case| case.card.keeps_roughness && !case.name.contains("8-bit");
+    for case in cases().iter().filter(fine) {
         let filtered = case.on(&map);
         // The narrower, the denser at its own axis.
         let peak = |lookup| {

@@ -45,7 +45,7 @@ struct Shots<'a> {
 
 impl Shots<'_> {
     /// Phong shading: normals of the vertices, no map.
-    fn from_vertices(&self, cells: usize) -> Result<Film, Halted> {
+    fn shaded_by_vertices(&self, cells: usize) -> Result<Film, Halted> {
         let flat = NormalMap::from_fn(1, 1, Wrap::Repeat, |_, _| [0.0, 0.0, 1.0, 1.0]);
         self.take(cells, WavyFrame::Vertex, "unfiltered", &Arc::new(flat))
     }
@@ -108,12 +108,12 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let base = BaseLobe::BlinnPhong { exponent: task.values.number("exponent") };
     let shots = Shots { base, task };
     let (map, inside) = (map(), inside());
-    let smooth = shots.from_vertices(SMOOTH)?;
+    let smooth = shots.shaded_by_vertices(SMOOTH)?;
     let scale = peak(&smooth);
     let difference = |a: &Film, b: &Film| rms(a, b, &inside) / scale;
     let films = [
-        shots.from_vertices(FEW)?,
-        shots.from_vertices(FEWER)?,
+        shots.shaded_by_vertices(FEW)?,
+        shots.shaded_by_vertices(FEWER)?,
         shots.with_map(FEW, &map)?,
         shots.with_map(FEWER, &map)?,
     ];

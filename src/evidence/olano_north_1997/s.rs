@@ -19,8 +19,11 @@ pub const ROW: Row = Row {
     make,
 };
 
+/// A way's label, and the method with its options.
+pub type Way = (&'static str, &'static str, &'static [(&'static str, Value)]);
+
 /// The ways, cheapest first as the paper has it.
-pub const WAYS: [(&str, &str, &[(&str, Value)]); 4] = [
+pub const WAYS: [Way; 4] = [
     ("Pearson II, m = 8, unnormalised", "olano-north-printed", &[]),
     (
         "Pearson II with a map of factors",
