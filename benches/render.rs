@@ -12,7 +12,7 @@ use wrinkle::lobe::{BaseLobe, Shading};
 use wrinkle::method::{self, Silent};
 use wrinkle::render::{Camera, PixelSampler, View, direction, render};
 use wrinkle::surface::{Plane, Shape};
-use wrinkle::texture::{NormalMap, Wrap};
+use wrinkle::texture::{Lookup, NormalMap, Wrap};
 
 fn main() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("one pool");
@@ -36,6 +36,7 @@ fn view(size: usize, shading: Shading, texels_per_pixel: f64) -> View {
         light: Light::Directional { direction: direction(40.0, 90.0), irradiance: 1.0 },
         shading,
         wrap: Wrap::Repeat,
+        lookup: Lookup::default(),
     };
     let across = untiled.footprint(128.0, 128.0).expect("in sight").texels_across(size, size);
     View { surface: plane.tiled(texels_per_pixel / across, 1.0), ..untiled }

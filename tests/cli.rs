@@ -241,7 +241,7 @@ fn list_knows_everything_by_name() {
     let text = out(&output(repository(), &["list"]));
     let json: Value =
         serde_json::from_slice(&output(repository(), &["list", "--json"]).stdout).unwrap();
-    for kind in ["methods", "patterns", "surfaces", "multiple_surfaces"] {
+    for kind in ["methods", "patterns", "surfaces", "environments", "multiple_surfaces"] {
         for entry in json[kind].as_array().unwrap() {
             assert!(text.contains(entry["name"].as_str().unwrap()), "{entry}");
             assert!(!entry["summary"].as_str().unwrap().is_empty(), "{entry}");

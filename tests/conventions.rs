@@ -17,7 +17,7 @@ use wrinkle::method::{BATCH, Batch, Lane, Prefiltered, Silent, build};
 use wrinkle::render::{Camera, Film, PixelSampler, View, average, direction, render, stream};
 use wrinkle::surface::{Plane, Shape, Sphere, Surface};
 use wrinkle::texture::image_file::{Green, NormalReading, Zero, read_normal_map};
-use wrinkle::texture::{Footprint, Interpolation, NormalMap, Wrap};
+use wrinkle::texture::{Footprint, Interpolation, Lookup, NormalMap, Wrap};
 
 const SEED: u64 = 3;
 
@@ -82,6 +82,7 @@ fn view_of(scene: &Brute) -> View {
         },
         shading: if scene.microfacet { Shading::Microfacet } else { Shading::Ndf },
         wrap: if scene.map.repeats { Wrap::Repeat } else { Wrap::Clamp },
+        lookup: Lookup::default(),
     }
 }
 
@@ -301,7 +302,8 @@ fn light_below_the_surface_is_none_and_facing_is_not_foreshortened() {
         let light = Light::Directional { direction: direction(light, 90.0), irradiance: 2.5 };
         let camera = Camera::orbiting(4.0, eye, -90.0, 20.0, 1, 1);
         let surface = Shape::Plane(Plane::new());
-        let view = View { camera, surface, light, shading: Shading::Ndf, wrap: Wrap::Repeat };
+        let (shading, wrap, lookup) = (Shading::Ndf, Wrap::Repeat, Lookup::default());
+        let view = View { camera, surface, light, shading, wrap, lookup };
         render(&view, map.as_ref(), &PixelSampler::new(1), 0, 0, &|| false).unwrap().pixels()[0]
     };
     let peak = (2.5 * 62.0 / TAU) as f32;

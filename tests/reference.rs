@@ -12,7 +12,7 @@ use wrinkle::parameter::{Value, Values};
 use wrinkle::pattern;
 use wrinkle::render::{Camera, Film, PixelSampler, View, average, direction, render};
 use wrinkle::surface::{Plane, Shape};
-use wrinkle::texture::{Footprint, Interpolation, NormalMap, Wrap};
+use wrinkle::texture::{Footprint, Interpolation, Lookup, NormalMap, Wrap};
 
 const SIDE: usize = 12;
 const SEED: u64 = 1978;
@@ -36,6 +36,7 @@ impl Scene {
             light: Light::Directional { direction: direction(60.0, 90.0), irradiance: 1.0 },
             shading: Shading::Ndf,
             wrap: Wrap::Repeat,
+            lookup: Lookup::default(),
         };
         let map = method::brute_force().prefilter(&map, &base, &Silent).unwrap();
         Self { view, map }
@@ -136,7 +137,7 @@ fn make(name: &str, [width, height]: [usize; 2], set: &[(&str, Value)]) -> Arc<N
 /// What a method makes of the whole of a map.
 fn top(name: &str, map: &Arc<NormalMap>, base: &BaseLobe) -> MultipleSurface {
     let filtered = method::build(name).unwrap().prefilter(map, base, &Silent).unwrap();
-    let whole = Footprint { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0] };
+    let whole = Footprint::whole();
     filtered.lobes_at(&whole)
 }
 

@@ -28,7 +28,7 @@ pub struct Args {
 pub enum Command {
     /// Run experiments and write their reports.
     Run(RunArgs),
-    /// Show the experiments, methods, patterns and surfaces there are.
+    /// Show the experiments, methods, patterns, surfaces and environments there are.
     List(ListArgs),
     /// Render one image.
     Render(RenderArgs),

@@ -8,6 +8,7 @@ use super::Exit;
 use super::args::ListArgs;
 use super::exit::Failure;
 use super::experiments;
+use crate::light::environment::maps;
 use crate::parameter::{Domain, Parameter};
 use crate::{lobe, method, pattern};
 
@@ -19,7 +20,7 @@ const SURFACES: [(&str, &str); 4] = [
     ("wavy-sphere", "a sphere whose radius ripples, as a mesh of as many cells as asked for"),
 ];
 
-/// Prints experiments, methods, patterns, surfaces and multiple surfaces.
+/// Prints experiments, methods, patterns, surfaces, environments and multiple surfaces.
 pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
     if args.json {
         writeln!(out, "{:#}", as_json())?;
@@ -39,7 +40,7 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Exit, Failure
     Ok(Exit::Done)
 }
 
-fn sections() -> [(&'static str, Vec<(String, String)>); 5] {
+fn sections() -> [(&'static str, Vec<(String, String)>); 6] {
     let experiments = experiments::names()
         .into_iter()
         .map(|name| {
@@ -53,12 +54,15 @@ fn sections() -> [(&'static str, Vec<(String, String)>); 5] {
     let patterns =
         pattern::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
     let surfaces = SURFACES.into_iter().map(|(name, what)| (name.into(), what.into()));
+    let environments =
+        maps::entries().into_iter().map(|e| (e.card.name.into(), e.card.summary.into()));
     let multiple = lobe::named().iter().map(|s| (s.name.into(), s.meaning.into()));
     [
         ("Experiments (wrinkle run NAME)", experiments),
         ("Methods", methods.collect()),
         ("Patterns", patterns.collect()),
         ("Surfaces", surfaces.collect()),
+        ("Environments", environments.collect()),
         ("Multiple surfaces (wrinkle lobes NAME, wrinkle render NAME)", multiple.collect()),
     ]
 }
@@ -85,6 +89,15 @@ fn as_json() -> Json {
         .collect();
     let surfaces: Vec<Json> =
         SURFACES.iter().map(|(name, what)| json!({ "name": name, "summary": what })).collect();
+    let environments: Vec<Json> = maps::entries()
+        .iter()
+        .map(|e| {
+            json!({
+                "name": e.card.name, "source": e.card.source, "summary": e.card.summary,
+                "parameters": parameters(e.parameters),
+            })
+        })
+        .collect();
     let multiple: Vec<Json> = lobe::named()
         .iter()
         .map(|s| json!({ "name": s.name, "source": s.source, "summary": s.meaning }))
@@ -94,6 +107,7 @@ fn as_json() -> Json {
         "methods": methods,
         "patterns": patterns,
         "surfaces": surfaces,
+        "environments": environments,
         "multiple_surfaces": multiple,
     })
 }

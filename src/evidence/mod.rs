@@ -10,6 +10,7 @@ mod exhibit;
 mod figure;
 mod fournier_1992;
 mod gather;
+mod olano_north_1997;
 mod paper;
 mod schilling_1997;
 mod table;

@@ -9,13 +9,14 @@ use super::spec::{
     Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
-use crate::light::environment::{Environment, maps, read};
+use crate::light::environment::{Environment, Read, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
-    BumpSource, CameraPose, LightOrigin, LightSource, LoadError, Material, PrefilterOf, ProbePlan,
-    ReferencePlan, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture, Tiling, TrialOf,
+    BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
+    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
+    Texture, Tiling, TrialOf,
 };
 use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
@@ -53,6 +54,8 @@ pub struct PlannedScene {
     pub tiling: Tiling,
     /// Distance of its camera.
     pub distance: f64,
+    /// Degrees above the plane z = 0 that its camera stands at.
+    pub elevation: f64,
     /// A file-name-safe identifier, unique in the experiment.
     pub slug: String,
     /// Its prefilters, one a method in the spec's order.
@@ -91,19 +94,14 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .collect();
     let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
     let light = spawn_light(world, &spec.light);
-    let placements: Vec<Placement> = placements(spec)
-        .into_iter()
-        .map(|(pose, tiling)| Placement::spawn(world, pose, tiling))
-        .collect();
+    let placements = placements(world, spec);
 
     let mut plan = Plan { textures, scenes: Vec::new() };
     for (index, &texture) in plan.textures.iter().enumerate() {
         let texture_key = super::keys::texture(&spec.sweep.textures[index]);
         for &(base, material) in &materials {
-            let prefilters: Vec<Entity> = strategies
-                .iter()
-                .map(|&strategy| world.spawn(PrefilterOf { texture, strategy, material }).id())
-                .collect();
+            let of = |strategy| PrefilterOf { texture, strategy, material };
+            let prefilters = spawn_prefilters(world, spec, &strategies, of);
             for placement in &placements {
                 let of = SceneOf { texture, surface, camera: placement.camera, light, material };
                 let slug = slug(spec, index, &base, placement);
@@ -115,6 +113,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
                     base,
                     tiling: placement.tiling,
                     distance: placement.distance,
+                    elevation: placement.elevation,
                     slug,
                     trials: spawn_trials(world, spec, scene, &prefilters),
                     prefilters: prefilters.clone(),
@@ -129,31 +128,36 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
 struct Placement {
     camera: Entity,
     distance: f64,
+    elevation: f64,
     tiling: Tiling,
 }
 
-impl Placement {
-    fn spawn(world: &mut World, pose: CameraPose, tiling: Tiling) -> Self {
-        Self { camera: world.spawn(pose).id(), distance: pose.distance, tiling }
-    }
-}
-
-fn placements(spec: &Spec) -> Vec<(CameraPose, Tiling)> {
-    let pose = |distance: f64| {
-        let (at, image) = (&spec.camera, &spec.image);
-        let origin = direction(at.elevation, at.azimuth) * distance;
-        let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
-        CameraPose { camera, distance }
-    };
-    match &spec.sweep.scale {
-        Scale::TexelsPerPixel(list) => list
-            .iter()
-            .map(|&texels| (pose(spec.camera.distance), Tiling::TexelsPerPixel(texels)))
-            .collect(),
+/// Every elevation by every scale.
+fn placements(world: &mut World, spec: &Spec) -> Vec<Placement> {
+    let of_scale: Vec<(f64, Tiling)> = match &spec.sweep.scale {
+        Scale::TexelsPerPixel(list) => {
+            let tiled = |&texels| (spec.camera.distance, Tiling::TexelsPerPixel(texels));
+            list.iter().map(tiled).collect()
+        }
         Scale::Distance { distances, tiles } => {
-            distances.iter().map(|&distance| (pose(distance), Tiling::Tiles(*tiles))).collect()
+            distances.iter().map(|&distance| (distance, Tiling::Tiles(*tiles))).collect()
+        }
+    };
+    let mut all = Vec::new();
+    for &elevation in &spec.sweep.elevations {
+        for &(distance, tiling) in &of_scale {
+            let camera = world.spawn(pose(spec, elevation, distance)).id();
+            all.push(Placement { camera, distance, elevation, tiling });
         }
     }
+    all
+}
+
+fn pose(spec: &Spec, elevation: f64, distance: f64) -> CameraPose {
+    let (at, image) = (&spec.camera, &spec.image);
+    let origin = direction(elevation, at.azimuth) * distance;
+    let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
+    CameraPose { camera, distance }
 }
 
 fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> Entity {
@@ -163,6 +167,25 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> E
     let ReferenceSpec { spp, replicates, truth } = spec.reference;
     let reference = ReferencePlan { spp, replicates, truth };
     world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+}
+
+/// One prefilter a method; those that differ in their lookup alone are built once.
+fn spawn_prefilters(
+    world: &mut World,
+    spec: &Spec,
+    strategies: &[Entity],
+    of: impl Fn(Entity) -> PrefilterOf,
+) -> Vec<Entity> {
+    let methods = &spec.sweep.methods;
+    let mut all: Vec<Entity> = Vec::with_capacity(methods.len());
+    for (k, (method, &strategy)) in methods.iter().zip(strategies).enumerate() {
+        let entity = world.spawn((of(strategy), LookupBy(method.lookup))).id();
+        if let Some(other) = methods[..k].iter().position(|other| other.same_filter(method)) {
+            world.entity_mut(entity).insert(SameAs(all[other]));
+        }
+        all.push(entity);
+    }
+    all
 }
 
 fn spawn_trials(
@@ -261,8 +284,9 @@ fn spawn_light(world: &mut World, spec: &LightSpec) -> Entity {
         }
         LightSpec::Environment { source, rotation, intensity, filter } => {
             let origin = LightOrigin(Box::new(move || {
-                let environment = Arc::new(surroundings(&source, rotation, intensity)?);
-                Ok(Light::Environment { environment, filter })
+                let Read { environment, notes } = surroundings(&source, rotation, intensity)?;
+                let environment = Arc::new(environment);
+                Ok(Kindled { light: Light::Environment { environment, filter }, notes })
             }));
             world.spawn(origin).id()
         }
@@ -274,12 +298,13 @@ fn surroundings(
     source: &EnvironmentSource,
     rotation: f64,
     intensity: f64,
-) -> Result<Environment, LoadError> {
+) -> Result<Read, LoadError> {
     match source {
         EnvironmentSource::Map { name, width, values } => {
             let entry = maps::find(name).expect("the spec names registered maps");
             let radiance = (entry.build)(values);
-            Ok(Environment::of(&radiance, width / 2, rotation, intensity))
+            let environment = Environment::of(&*radiance, width / 2, rotation, intensity);
+            Ok(Read { environment, notes: Vec::new() })
         }
         EnvironmentSource::File { path } => {
             read(path, rotation, intensity).map_err(|error| LoadError(error.to_string()))
@@ -287,7 +312,7 @@ fn surroundings(
     }
 }
 
-/// A scene's file-name-safe identifier: its texture, its lobe if there are several, its scale.
+/// A scene's file-name-safe identifier: its texture, its lobe and elevation if there are several, its scale.
 fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> String {
     let safe = |text: &str| -> String {
         text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
@@ -300,6 +325,9 @@ fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> 
     }
     if spec.sweep.lobes.len() > 1 {
         parts.push(format!("{}-{}", base.name(), base.parameter()));
+    }
+    if spec.sweep.elevations.len() > 1 {
+        parts.push(format!("from-{}", placement.elevation));
     }
     parts.push(match placement.tiling {
         Tiling::TexelsPerPixel(texels) => format!("{texels}-texels"),

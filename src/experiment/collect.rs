@@ -13,6 +13,7 @@ use super::store::{PrefilterRecord, ProbeRecord, Store};
 use crate::lobe::{Shading, Spread};
 use crate::metric;
 use crate::scene::{Exposure, Probes, ReferenceImage, Scores, Stagehand, Tiling};
+use crate::texture::Lookup;
 use crate::texture::image_file::{Preview, preview};
 
 /// Gathers what a finished run has found, and fills in `costs`.
@@ -121,6 +122,7 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
         },
         texels_per_pixel,
         distance: scene.distance,
+        elevation: scene.elevation,
     }
 }
 
@@ -175,7 +177,12 @@ pub(super) fn known_scores(scores: &[Score]) -> Scores {
 }
 
 fn describe_method(spec: &super::spec::MethodSpec) -> MethodInfo {
-    let card = spec.build().card();
+    let method = spec.build();
+    let card = method.card();
+    let lookup = (!method.lookups().is_empty()).then_some(spec.lookup);
+    let options = spec.values.iter().map(|(name, value)| format!("{name} = {value}"));
+    let named = |lookup: &Lookup| *lookup != Lookup::default();
+    let by = lookup.filter(named).map(|lookup| format!("lookup = {}", lookup.name()));
     MethodInfo {
         label: spec.label.clone(),
         name: card.name.to_owned(),
@@ -184,7 +191,8 @@ fn describe_method(spec: &super::spec::MethodSpec) -> MethodInfo {
         formula: card.formula.to_owned(),
         limits: card.limits.to_owned(),
         normalised: card.normalised,
-        options: spec.values.iter().map(|(name, value)| format!("{name} = {value}")).collect(),
+        options: options.chain(by).collect(),
+        lookup,
     }
 }
 

@@ -48,7 +48,8 @@ pub(super) fn texture(texture: &TextureSpec) -> String {
 
 /// What a scene's reference depends on, beyond what is common.
 pub(super) fn scene(scene: &PlannedScene) -> String {
-    format!("{} {:?} {:?} {:?}", scene.texture_key, scene.base, scene.tiling, scene.distance)
+    let PlannedScene { texture_key, base, tiling, distance, elevation, .. } = scene;
+    format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?}")
 }
 
 /// What a trial depends on.

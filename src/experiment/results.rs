@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::method::Truth;
 use crate::render::Film;
+use crate::texture::Lookup;
 
 /// All that one run of an experiment found, apart from what it cost.
 #[derive(Clone, Debug)]
@@ -47,8 +48,10 @@ pub struct MethodInfo {
     pub limits: String,
     /// Whether it keeps the footprint's energy.
     pub normalised: bool,
-    /// Its options as `name = value`, in alphabetical order.
+    /// Its options as `name = value`, in alphabetical order, then its lookup if it is not trilinear.
     pub options: Vec<String>,
+    /// How it looks up what lies under a footprint, if it does.
+    pub lookup: Option<Lookup>,
 }
 
 /// A texture as the experiment used it.
@@ -99,6 +102,8 @@ pub struct SceneKey {
     pub texels_per_pixel: f64,
     /// Distance from the camera to the origin, scene units.
     pub distance: f64,
+    /// Degrees above the plane z = 0 that the camera stands at.
+    pub elevation: f64,
 }
 
 /// What was found for one scene.

@@ -29,7 +29,7 @@ impl Work {
             reference_spp: f64::from(spec.reference.spp),
             replicates: f64::from(spec.reference.replicates),
             texels,
-            prefilters: spec.sweep.methods.iter().map(a_texel).collect(),
+            prefilters: built_once(&spec.sweep.methods, a_texel),
         }
     }
 
@@ -69,4 +69,11 @@ impl Work {
         plan.scenes.iter().map(|scene| self.scene(scene)).sum::<f64>()
             + plan.scenes.iter().filter(last).map(|scene| self.prefilters(scene)).sum::<f64>()
     }
+}
+
+/// The work of each method's prefilter; none for one that an earlier method has as well.
+fn built_once(methods: &[MethodSpec], work: impl Fn(&MethodSpec) -> f64) -> Vec<f64> {
+    let before = |k: usize| methods[..k].iter().any(|other| other.same_filter(&methods[k]));
+    let each = |(k, method)| if before(k) { 0.0 } else { work(method) };
+    methods.iter().enumerate().map(each).collect()
 }

@@ -28,6 +28,13 @@ impl From<Quad> for [f32; 4] {
 }
 
 impl Quad {
+    /// The first four of `numbers`.
+    #[inline(always)]
+    pub fn load(numbers: &[f32]) -> Self {
+        let four: &[f32; 4] = numbers.first_chunk().expect("four numbers");
+        Self::from(*four)
+    }
+
     /// Writes the four numbers to the start of `out`.
     #[inline(always)]
     pub fn store(self, out: &mut [f32]) {

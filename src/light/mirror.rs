@@ -71,16 +71,16 @@ pub fn mirrored(
         let slopes = lobe.slopes();
         moments += f64::from(dot(slopes.moment(), view));
         let eye = slopes.local(view).map(f64::from);
-        for (share, covariance) in slopes.gaussians() {
+        for &(share, covariance) in slopes.gaussians().iter() {
             let weight = f64::from(slopes.amplitude * share);
             let Some(patch) = Patch::of(slopes.mean, covariance, eye) else {
                 continue;
             };
-            let area = weight * patch.area;
-            seen.area += area;
             // What is hardly seen is not worth a lookup.
             if patch.area > 1e-7 {
+                let area = weight * patch.area;
                 let cone = Cone::of(&slopes, &patch, eye);
+                seen.area += area;
                 seen.light += area * cone.light(environment, filter, frame);
             }
         }

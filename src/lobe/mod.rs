@@ -33,5 +33,5 @@ pub use peak::PhongPeak;
 pub use pedal::{Contour, Fall, PedalLobe};
 pub use reflection::reflection;
 pub use restricted::{Cut, Generator, RestrictedLobe};
-pub use slopes::{GAUSSIANS, Gaussian, Slopes};
+pub use slopes::{GAUSSIANS, Gaussian, Gaussians, Slopes};
 pub use surface_file::{SurfaceFileError, read_peaks};

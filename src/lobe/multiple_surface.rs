@@ -1,14 +1,12 @@
 //! A multiple surface: more than one normal at a point (Fournier 1992 §4).
 
-use arrayvec::ArrayVec;
-
 use super::vector::V3;
 use super::{
     EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, Shading, Slopes, Spread,
 };
 
-/// The most lobes a footprint can have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2 levels,
-/// and the unfiltered lobe that magnification blends in.
+/// The most lobes a surface from a file may have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2
+/// levels, and one more. Only footprints under wide lookups have more.
 pub const CAPACITY: usize = 12 * 4 * 2 + 1;
 
 /// Any lobe, its amplitude included.
@@ -83,14 +81,14 @@ macro_rules! lobe_from {
 }
 lobe_from!(Elliptic(EllipticLobe), Peak(PhongPeak), Pedal(PedalLobe), Restricted(RestrictedLobe));
 
-/// What a filter makes of a footprint: up to [`CAPACITY`] lobes whose densities add. Lobes may have
+/// What a filter makes of a footprint: lobes whose densities add. Lobes may have
 /// horizons, which matter to the light they send ([`MultipleSurface::radiance`]) but not to what they
 /// are.
 #[derive(Clone, Debug, Default)]
 pub struct MultipleSurface {
-    lobes: ArrayVec<Lobe, CAPACITY>,
+    lobes: Vec<Lobe>,
     /// One a lobe, or none at all.
-    horizons: ArrayVec<(Horizon, f32), CAPACITY>,
+    horizons: Vec<(Horizon, f32)>,
     ratioed: bool,
 }
 
@@ -123,9 +121,6 @@ impl Visibility {
 }
 
 /// A surface of all these lobes.
-///
-/// # Panics
-/// If there are more than [`CAPACITY`]: whoever takes lobes from a user counts them.
 impl<L: Into<Lobe>> FromIterator<L> for MultipleSurface {
     fn from_iter<I: IntoIterator<Item = L>>(lobes: I) -> Self {
         let mut surface = Self::new();
@@ -141,9 +136,6 @@ impl MultipleSurface {
     }
 
     /// Adds a lobe with its density multiplied by `weight`; a weight of 0 adds nothing.
-    ///
-    /// # Panics
-    /// If there are more than [`CAPACITY`] lobes: a programming error in a method.
     pub fn add(&mut self, lobe: impl Into<Lobe>, weight: f32) {
         if weight > 0.0 {
             self.lobes.push(lobe.into().faded(weight));
@@ -152,9 +144,6 @@ impl MultipleSurface {
 
     /// Adds a lobe as [`MultipleSurface::add`] does, with its horizon and the part of the surface it
     /// stands for at weight 1. If one lobe has a horizon, all must.
-    ///
-    /// # Panics
-    /// As [`MultipleSurface::add`].
     pub fn add_behind(&mut self, lobe: impl Into<Lobe>, weight: f32, horizon: Horizon, area: f32) {
         if weight > 0.0 {
             self.add(lobe, weight);

@@ -1,7 +1,7 @@
 //! Many shading points at once, in structure-of-arrays form.
 
 use crate::lobe::vector::V3;
-use crate::texture::Footprint;
+use crate::texture::{Footprint, Lookup};
 
 /// Lanes in a batch: a few kilobytes an axis, so that a batch stays in the first-level cache.
 pub const BATCH: usize = 128;
@@ -24,6 +24,8 @@ pub struct Batch {
     /// [∂u/∂x, ∂v/∂x, ∂u/∂y, ∂v/∂y] for one sample spacing (see [`Footprint`]); unset where the
     /// method does not need footprints.
     pub jacobian: [Lane; 4],
+    /// How what lies under the footprints is averaged.
+    pub lookup: Lookup,
     /// Direction of the half vector; any length.
     pub half: [Lane; 3],
     /// Unit direction to the light; unset for [`crate::lobe::Shading::Ndf`] where the method does not
@@ -44,6 +46,7 @@ impl Default for Batch {
             u: [0.0; BATCH],
             v: [0.0; BATCH],
             jacobian: [[0.0; BATCH]; 4],
+            lookup: Lookup::default(),
             half: up,
             light: up,
             view: up,
@@ -57,7 +60,8 @@ impl Batch {
     #[inline(always)]
     pub fn footprint(&self, i: usize) -> Footprint {
         let [ux, vx, uy, vy] = &self.jacobian;
-        Footprint { u: self.u[i], v: self.v[i], along_x: [ux[i], vx[i]], along_y: [uy[i], vy[i]] }
+        let (along_x, along_y) = ([ux[i], vx[i]], [uy[i], vy[i]]);
+        Footprint { u: self.u[i], v: self.v[i], along_x, along_y, lookup: self.lookup }
     }
 
     /// Direction of lane `i`'s half vector.

@@ -16,7 +16,7 @@ use crate::fit::{Directions, GreedyOptions};
 use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
-use crate::texture::{HorizonMap, NormalMap};
+use crate::texture::{HorizonMap, Lookup, NormalMap};
 
 /// Up to 7 Phong peaks a cell of a pyramid, fitted to what the normals below spread to.
 ///
@@ -228,6 +228,12 @@ impl Method for Fournier {
         self.exponent(base).map(|_| 0.0)
     }
 
+    fn lookups(&self) -> &'static [Lookup] {
+        // Peaks made for a footprint alone have no horizons: those are of cells.
+        let all = &Lookup::ALL;
+        if self.shadowing == Shadowing::None { all } else { &all[..all.len() - 1] }
+    }
+
     fn needs_heights(&self) -> bool {
         self.shadowing != Shadowing::None
     }
@@ -249,7 +255,7 @@ impl Method for Fournier {
         let exponent = self.exponent(base)?;
         let levels = pyramid::build(self, map, exponent, progress)?;
         let stored = levels.iter().map(lookup::StoredLevel::new).collect();
-        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored);
+        let peaks = lookup::PeakMap::new(Arc::clone(map), *self, exponent, stored);
         if self.shadowing == Shadowing::None {
             return Ok(Box::new(peaks));
         }
@@ -276,7 +282,7 @@ impl Method for Fournier {
     ) -> Result<Box<dyn Prefiltered>, Damaged> {
         let exponent = self.exponent(base).map_err(|refusal| Damaged(refusal.0))?;
         let stored = stored::from_bytes(map, exponent, self.shadowing != Shadowing::None, bytes)?;
-        let peaks = lookup::PeakMap::new(Arc::clone(map), exponent, stored.levels);
+        let peaks = lookup::PeakMap::new(Arc::clone(map), *self, exponent, stored.levels);
         if self.shadowing == Shadowing::None {
             return Ok(Box::new(peaks));
         }

@@ -35,9 +35,9 @@ impl MeanNormals {
     /// The mean over a footprint, of any length up to the mean weight.
     pub fn at(&self, at: &Footprint) -> V3 {
         let level = at.level(self.map.width(), self.map.height());
-        let share = filtered_share(level);
-        let wide = self.pyramid.trilinear(&self.map, at.u, at.v, level);
-        let [x, y, z, weight] = self.map.sample(at.u, at.v);
+        let share = filtered_share(level, at.lookup);
+        let wide = self.pyramid.fetch(&self.map, at);
+        let [x, y, z, weight] = self.map.normal_at(at.u, at.v);
         let here = [x, y, z].map(|c| weight * c);
         [0, 1, 2].map(|c| share * wide[c] + (1.0 - share) * here[c])
     }
@@ -54,7 +54,7 @@ mod tests {
         let map = NormalMap::from_fn(8, 4, Wrap::Repeat, |u, v| [u - 0.5, 0.3 * v, 1.0, 1.0 + u]);
         let map = Arc::new(map);
         let means = MeanNormals::beside(&build("lean").unwrap().card(), &map).unwrap();
-        let at = Footprint { u: 0.3, v: 0.9, along_x: [1.0, 0.0], along_y: [0.0, 2.0] };
+        let at = Footprint { u: 0.3, v: 0.9, along_y: [0.0, 2.0], ..Footprint::whole() };
         for (c, got) in means.at(&at).into_iter().enumerate() {
             let sum: f32 = map.texels().iter().map(|t| t[c] * t[3]).sum();
             assert!((got - sum / 32.0).abs() < 1e-6);

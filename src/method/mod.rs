@@ -27,7 +27,7 @@ pub use registry::{Entry, brute_force, build, entries, find};
 pub use truth::{Truth, truth};
 
 use crate::lobe::{BaseLobe, MultipleSurface, Shading};
-use crate::texture::{Footprint, NormalMap};
+use crate::texture::{Footprint, Lookup, NormalMap};
 
 /// What a method is, for lists, reports and help.
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +103,11 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// # Errors
     /// A [`Refusal`] if it cannot take this base lobe at all.
     fn base_error(&self, base: &BaseLobe) -> Result<f64, Refusal>;
+
+    /// The lookups it can be used with; none if it looks at no footprint. All of them unless said otherwise.
+    fn lookups(&self) -> &'static [Lookup] {
+        &Lookup::ALL
+    }
 
     /// Whether it looks at the heights a map's normals are of ([`NormalMap::heights`]). Where there are
     /// none it integrates them itself; a map that several share had better come with them.

@@ -1,11 +1,11 @@
-//! What all one-lobe methods share: a pyramid of moments, looked up trilinearly, turned into a lobe.
+//! What all one-lobe methods share: a pyramid of moments, looked up, turned into a lobe.
 
 use std::sync::Arc;
 
 use super::{BATCH, Batch, Lane, Prefiltered};
 use crate::geometry::{Kernel, vectorised};
 use crate::lobe::{BaseLobe, Lobe, MultipleSurface, Shading, Spread};
-use crate::texture::{Footprint, Moments, NormalMap, Pyramid};
+use crate::texture::{Footprint, Lookup, Moments, NormalMap, Pyramid};
 
 /// A one-lobe method's two formulas: texel → channels ([`Moments::encode`]), and averaged channels →
 /// lobe.
@@ -28,19 +28,13 @@ impl<M: OneLobe<C>, const C: usize> OneLobeMap<M, C> {
     pub(super) fn build(map: &Arc<NormalMap>, base: &BaseLobe, moments: M) -> Self {
         Self { map: Arc::clone(map), base: *base, pyramid: Pyramid::build(map, moments) }
     }
-
-    /// The averaged channels at a footprint of this level.
-    #[inline(always)]
-    fn fetch(&self, at: &Footprint, level: f32) -> [f32; C] {
-        self.pyramid.trilinear(&self.map, at.u, at.v, level)
-    }
 }
 
 /// Share of the filtered surface at a level: 1 from level 0 up, falling to 0 at level −1, where the map
-/// is magnified and the unfiltered lobe takes over.
+/// is magnified and the unfiltered lobe takes over. An exact lookup finds a single normal there by itself.
 #[inline(always)]
-pub(super) fn filtered_share(level: f32) -> f32 {
-    (1.0 + level).clamp(0.0, 1.0)
+pub(super) fn filtered_share(level: f32, lookup: Lookup) -> f32 {
+    if lookup == Lookup::Exact { 1.0 } else { (1.0 + level).clamp(0.0, 1.0) }
 }
 
 /// The unfiltered lobe at a point: the base lobe about the interpolated normal.
@@ -62,46 +56,77 @@ impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
 
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let level = at.level(self.map.width(), self.map.height());
-        let share = filtered_share(level);
+        let share = filtered_share(level, at.lookup);
         let mut surface = MultipleSurface::new();
         if share > 0.0 {
-            surface.add(self.pyramid.moments().lobe(self.fetch(at, level)), share);
+            let found = self.pyramid.fetch(&self.map, at);
+            surface.add(self.pyramid.moments().lobe(found), share);
         }
         surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0 - share);
         surface
     }
 
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        let (mut channels, mut share) = ([[0.0; BATCH]; C], [1.0; BATCH]);
+        vectorised(Fetch { of: self, batch, channels: &mut channels, share: &mut share });
+        let fetched = Fetched { of: self, batch, channels: &channels, share: &share };
         match shading {
-            Shading::Ndf => vectorised(Shade::<M, C, false> { of: self, batch, radiance }),
-            Shading::Microfacet => vectorised(Shade::<M, C, true> { of: self, batch, radiance }),
+            Shading::Ndf => vectorised(Shade::<M, C, false> { fetched, radiance }),
+            Shading::Microfacet => vectorised(Shade::<M, C, true> { fetched, radiance }),
         }
     }
 }
 
-/// The kernel: moments fetched lane by lane, then lobes as vector code.
-struct Shade<'a, M, const C: usize, const MICROFACET: bool> {
+/// The first kernel: each lane's averaged channels, and its share of the filtered surface.
+struct Fetch<'a, M, const C: usize> {
     of: &'a OneLobeMap<M, C>,
     batch: &'a Batch,
+    channels: &'a mut [Lane; C],
+    share: &'a mut Lane,
+}
+
+impl<M: OneLobe<C>, const C: usize> Kernel for Fetch<'_, M, C> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { of, batch, channels, share } = self;
+        let mut levels = [0.0; BATCH];
+        for i in 0..BATCH {
+            levels[i] = batch.footprint(i).level(of.map.width(), of.map.height());
+            share[i] = filtered_share(levels[i], batch.lookup);
+        }
+        if batch.lookup == Lookup::Trilinear {
+            let at = (&batch.u, &batch.v, &levels);
+            of.pyramid.trilinear_lanes(&of.map, at, batch.len, channels);
+            return;
+        }
+        for i in (0..batch.len).filter(|&i| batch.irradiance[i] > 0.0) {
+            let found = of.pyramid.fetch(&of.map, &batch.footprint(i));
+            for c in 0..C {
+                channels[c][i] = found[c];
+            }
+        }
+    }
+}
+
+/// What was fetched for a batch.
+struct Fetched<'a, M, const C: usize> {
+    of: &'a OneLobeMap<M, C>,
+    batch: &'a Batch,
+    channels: &'a [Lane; C],
+    share: &'a Lane,
+}
+
+/// The second kernel: lobes as vector code.
+struct Shade<'a, M, const C: usize, const MICROFACET: bool> {
+    fetched: Fetched<'a, M, C>,
     radiance: &'a mut Lane,
 }
 
 impl<M: OneLobe<C>, const C: usize, const MICROFACET: bool> Kernel for Shade<'_, M, C, MICROFACET> {
     #[inline(always)]
     fn run(self) {
-        let Self { of, batch, radiance } = self;
+        let Self { fetched: Fetched { of, batch, channels, share }, radiance } = self;
         let shading = if MICROFACET { Shading::Microfacet } else { Shading::Ndf };
-        let mut channels = [[0.0; BATCH]; C];
-        let mut share = [1.0; BATCH];
-        for i in 0..batch.len {
-            let at = batch.footprint(i);
-            let level = at.level(of.map.width(), of.map.height());
-            share[i] = filtered_share(level);
-            let fetched = of.fetch(&at, level);
-            for c in 0..C {
-                channels[c][i] = fetched[c];
-            }
-        }
         // The whole width, and no branches: the compiler makes it vector code.
         for i in 0..BATCH {
             let mut moments = [0.0; C];
@@ -109,8 +134,10 @@ impl<M: OneLobe<C>, const C: usize, const MICROFACET: bool> Kernel for Shade<'_,
                 moments[c] = channels[c][i];
             }
             let lobe = of.pyramid.moments().lobe(moments);
-            radiance[i] = batch.irradiance[i]
+            let sent = batch.irradiance[i]
                 * lobe.radiance(shading, batch.half(i), batch.light(i), batch.view(i));
+            // Where it is dark nothing may have been fetched.
+            radiance[i] = if batch.irradiance[i] > 0.0 { sent } else { 0.0 };
         }
         for i in (0..batch.len).filter(|&i| share[i] < 1.0) {
             let lobe = unfiltered_lobe(&of.map, &of.base, batch.u[i], batch.v[i]);

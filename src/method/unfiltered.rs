@@ -11,7 +11,7 @@ use crate::lobe::round::{Beckmann, Ggx, Phong, RoundLobe};
 use crate::lobe::vector::{dot, tan_squared};
 use crate::lobe::{BaseLobe, Horizon, MultipleSurface, Shading};
 use crate::parameter::{Domain, Parameter};
-use crate::texture::{Footprint, HorizonMap, NormalMap, Wrap};
+use crate::texture::{Footprint, HorizonMap, Lookup, NormalMap, Wrap};
 
 /// One base lobe about the perturbed normal at the sample's centre, whatever the footprint holds.
 ///
@@ -59,6 +59,10 @@ impl Method for Unfiltered {
 
     fn base_error(&self, _base: &BaseLobe) -> Result<f64, Refusal> {
         Ok(0.0)
+    }
+
+    fn lookups(&self) -> &'static [Lookup] {
+        &[]
     }
 
     fn needs_heights(&self) -> bool {

@@ -55,6 +55,7 @@ impl Portrait {
             light: self.light.clone(),
             shading: self.shading,
             wrap: Wrap::Repeat,
+            lookup: crate::texture::Lookup::default(),
         };
         let sampler = PixelSampler::new(self.spp);
         render(&view, &Constant(surface), &sampler, self.seed, 0, &|| false)

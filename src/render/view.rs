@@ -5,7 +5,7 @@ use crate::light::Light;
 use crate::lobe::Shading;
 use crate::method::{BATCH, Batch};
 use crate::surface::{Shape, Surface, displacement};
-use crate::texture::{Footprint, Wrap};
+use crate::texture::{Footprint, Lookup, Wrap};
 
 use super::Camera;
 
@@ -23,6 +23,8 @@ pub struct View {
     pub shading: Shading,
     /// How the map on the surface wraps.
     pub wrap: Wrap,
+    /// How what lies under a footprint is averaged.
+    pub lookup: Lookup,
 }
 
 impl View {
@@ -41,7 +43,7 @@ impl View {
             hit.gradient.map(|g| held(g.dot(&moved)))
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
-        let footprint = Footprint { u, v, along_x, along_y };
+        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup };
         Some(Sight { footprint, frame: hit.frame, view: -ray.normalize() })
     }
 
@@ -60,6 +62,7 @@ impl View {
         batch: &mut Batch,
     ) {
         batch.len = len;
+        batch.lookup = self.lookup;
         let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
         match (directions || self.shading == Shading::Microfacet, spacing) {
             (false, None) => points.fill::<false, false>(),

@@ -109,9 +109,11 @@ impl<'a> Comparison<'a> {
     pub fn of(results: &'a Results) -> Self {
         let counts = results.scenes.iter().flat_map(|s| s.trials.iter().map(|t| t.spp));
         let spp = counts.min().unwrap_or(1);
-        let settings = unique(results.scenes.iter().map(|s| setting_name(&s.key)))
+        let named: Vec<String> =
+            results.scenes.iter().map(|scene| setting_name(results, &scene.key)).collect();
+        let settings = unique(named.iter())
             .into_iter()
-            .map(|name| setting(results, name, spp))
+            .map(|name| setting(results, &named, name, spp))
             .collect();
         Self { results, spp, settings }
     }
@@ -127,19 +129,25 @@ impl<'a> Comparison<'a> {
     }
 }
 
-fn setting<'a>(results: &'a Results, name: String, spp: u32) -> Setting<'a> {
-    let scenes: Vec<&SceneResult> =
-        results.scenes.iter().filter(|s| setting_name(&s.key) == name).collect();
+fn setting<'a>(results: &'a Results, named: &[String], name: &str, spp: u32) -> Setting<'a> {
+    let of_name = results.scenes.iter().zip(named).filter(|(_, of)| *of == name);
+    let scenes: Vec<&SceneResult> = of_name.map(|(scene, _)| scene).collect();
     let keys: Vec<_> = scenes.iter().map(|s| &s.key).collect();
     let contests = scenes.iter().map(|scene| Contest::of(results, scene, spp)).collect();
-    Setting { name, scales: scales(&keys), contests }
+    Setting { name: name.to_owned(), scales: scales(&keys), contests }
 }
 
-/// Surface, light, base lobe and shading of a scene, in words.
-pub fn setting_name(key: &SceneKey) -> String {
+/// Surface, light, base lobe and shading of a scene, in words; the camera's elevation where there are several.
+pub fn setting_name(results: &Results, key: &SceneKey) -> String {
     let parameter = if key.lobe == "blinn-phong" { "exponent" } else { "α" };
+    let several = results.scenes.iter().any(|other| other.key.elevation != key.elevation);
+    let from = if several {
+        format!(" seen from {}°", phrase::scale(key.elevation))
+    } else {
+        String::new()
+    };
     format!(
-        "{}, {} light, {} lobe with {parameter} {}, {} shading",
+        "{}{from}, {} light, {} lobe with {parameter} {}, {} shading",
         key.surface,
         key.light,
         key.lobe,

@@ -135,7 +135,7 @@ fn scene_figures(results: &Results, scene: &SceneResult, spp: u32) -> SceneFigur
     let probes = scene.probes.iter().enumerate();
     SceneFigures {
         heading: format!("{}, {}", scene.key.texture, texels(scene.key.texels_per_pixel)),
-        setting: setting_name(&scene.key),
+        setting: setting_name(results, &scene.key),
         sheet: sheet_figure(scene, &frames, spp),
         frames: frames.frames.iter().map(FrameImages::of).collect(),
         probes: probes.map(|(i, probe)| probe_figure(results, scene, probe, i + 1)).collect(),

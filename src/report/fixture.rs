@@ -8,6 +8,7 @@ use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::method::Truth;
 use crate::render::Film;
+use crate::texture::Lookup;
 
 const SIDE: usize = 72;
 pub const TEXTURES: [&str; 3] = ["bricks", "denim", "waves"];
@@ -80,6 +81,7 @@ fn method(&(label, name, normalised, ..): &(&str, &str, bool, f64, f64)) -> Meth
         limits: "one lobe: two separate highlights become one".into(),
         normalised,
         options: if normalised { vec![] } else { vec!["form = printed".into()] },
+        lookup: Some(Lookup::Trilinear),
     }
 }
 
@@ -122,6 +124,7 @@ fn key(texture: &str, scale: f64) -> SceneKey {
         shading: "ndf".into(),
         texels_per_pixel: scale,
         distance: scale * 2.5,
+        elevation: 40.0,
     }
 }
 

@@ -38,6 +38,7 @@ mod polar;
 mod ranking;
 mod scale;
 mod sheet;
+mod split;
 mod tables;
 mod template;
 mod tidy;

@@ -8,6 +8,7 @@ use super::answer::answer;
 use super::contest::{Comparison, unique};
 use super::figures::Figures;
 use super::ranking;
+use super::split;
 use super::tables::{self, Table};
 use super::template::render;
 use super::words;
@@ -42,6 +43,7 @@ struct SettingTables {
     name: String,
     choice: Option<Table>,
     winners: Table,
+    split: Option<Table>,
     tables: Vec<Table>,
 }
 
@@ -60,6 +62,7 @@ impl<'a> Page<'a> {
             name: setting.name.clone(),
             choice: ranking::choice(&comparison, setting),
             winners: tables::winners(setting),
+            split: split::split(&comparison, setting),
             tables: setting
                 .scales
                 .iter()

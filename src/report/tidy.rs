@@ -7,7 +7,7 @@ use crate::experiment::results::{
 };
 
 /// The columns of `metrics.csv`, in order.
-pub const COLUMNS: [&str; 12] = [
+pub const COLUMNS: [&str; 13] = [
     "texture",
     "surface",
     "light",
@@ -16,6 +16,7 @@ pub const COLUMNS: [&str; 12] = [
     "shading",
     "texels_per_pixel",
     "distance",
+    "elevation",
     "method",
     "spp",
     "metric",
@@ -45,6 +46,7 @@ pub fn csv(results: &Results) -> Vec<u8> {
             key.shading.clone(),
             round_trip(key.texels_per_pixel),
             round_trip(key.distance),
+            round_trip(key.elevation),
             row.method.to_owned(),
             row.spp.map_or_else(String::new, |spp| spp.to_string()),
             row.metric.to_owned(),

@@ -7,7 +7,14 @@ use crate::light::Light;
 
 /// What makes a light: a [`LightSource`] is put beside it when a scene needs it.
 #[derive(Component)]
-pub struct LightOrigin(pub Box<dyn Fn() -> Result<Light, LoadError> + Send + Sync>);
+pub struct LightOrigin(pub Box<dyn Fn() -> Result<Kindled, LoadError> + Send + Sync>);
+
+/// A light, and what is worth knowing about how it was had, a sentence each.
+#[allow(missing_docs)]
+pub struct Kindled {
+    pub light: Light,
+    pub notes: Vec<String>,
+}
 
 pub(super) fn plugin(schedule: &mut Schedule) {
     schedule.add_systems(kindle.in_set(Stage::Texture).after(texture::load));
@@ -25,7 +32,8 @@ fn kindle(
     let Ok(scene) = scenes.get(current.0) else { return };
     let Ok(origin) = origins.get(scene.light) else { return };
     match (origin.0)() {
-        Ok(light) => {
+        Ok(Kindled { light, notes }) => {
+            progress.write_batch(notes.into_iter().map(|text| Progress::Noted { text }));
             commands.entity(scene.light).insert(LightSource(light));
             progress.write(Progress::Lit { light: scene.light });
         }

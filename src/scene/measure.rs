@@ -4,12 +4,14 @@ use bevy_ecs::prelude::*;
 
 use super::trial::{SceneView, StagedScene};
 use super::{
-    Current, Exposure, Prefilter, PrefilterOf, ProbePlan, Progress, ReferenceImage, Stage, TrialOf,
+    Current, Exposure, LookupBy, Prefilter, PrefilterOf, ProbePlan, Progress, ReferenceImage,
+    Stage, TrialOf,
 };
 use crate::geometry::HemisphereGrid;
 use crate::lobe::{MultipleSurface, Spread};
 use crate::metric;
 use crate::render::true_distribution;
+use crate::texture::{Footprint, Lookup};
 
 /// A trial's scores against the reference: (metric, value), in the metrics' own order.
 #[derive(Component, Clone, Debug, PartialEq)]
@@ -76,21 +78,21 @@ fn probe(
     current: Res<Current>,
     view: SceneView,
     plans: Query<(&ProbePlan, &super::SceneOf), Without<Probes>>,
-    prefilters: Query<(Entity, &PrefilterOf, Option<&Prefilter>)>,
+    prefilters: Query<(Entity, &PrefilterOf, &LookupBy, Option<&Prefilter>)>,
     mut progress: MessageWriter<Progress>,
 ) {
     let Ok((plan, scene)) = plans.get(current.0) else { return };
     let Some(staged) = view.of(current.0) else { return };
     let ours = |of: &PrefilterOf| of.texture == scene.texture && of.material == scene.material;
-    let mut ready: Vec<(Entity, Option<&Prefilter>)> = prefilters
+    let mut ready: Vec<(Entity, Lookup, Option<&Prefilter>)> = prefilters
         .iter()
-        .filter(|(_, of, _)| ours(of))
-        .map(|(entity, _, prefilter)| (entity, prefilter))
+        .filter(|(_, of, ..)| ours(of))
+        .map(|(entity, _, lookup, prefilter)| (entity, lookup.0, prefilter))
         .collect();
-    if ready.iter().any(|(_, prefilter)| prefilter.is_none()) {
+    if ready.iter().any(|(.., prefilter)| prefilter.is_none()) {
         return;
     }
-    ready.sort_by_key(|(entity, _)| *entity);
+    ready.sort_by_key(|(entity, ..)| *entity);
     let found = plan.0.iter().filter_map(|&pixel| look_under(&staged, pixel, &ready)).collect();
     commands.entity(current.0).insert(Probes(found));
     progress.write(Progress::Probed { scene: current.0 });
@@ -100,7 +102,7 @@ fn probe(
 fn look_under(
     staged: &StagedScene,
     pixel: [usize; 2],
-    prefilters: &[(Entity, Option<&Prefilter>)],
+    prefilters: &[(Entity, Lookup, Option<&Prefilter>)],
 ) -> Option<Probe> {
     let grid = HemisphereGrid::fournier();
     let (view, map) = (&staged.view, &staged.map);
@@ -108,8 +110,9 @@ fn look_under(
     let truth = true_distribution(view, map, &staged.material.base, pixel, PROBE_POINTS, &grid)?;
     let methods = prefilters
         .iter()
-        .filter_map(|&(entity, prefilter)| {
-            let surface = prefilter?.0.as_ref().ok()?.lobes_at(&footprint);
+        .filter_map(|&(entity, lookup, prefilter)| {
+            let at = Footprint { lookup, ..footprint };
+            let surface = prefilter?.0.as_ref().ok()?.lobes_at(&at);
             let density: Vec<f32> = grid
                 .samples()
                 .iter()

@@ -18,9 +18,9 @@ mod shelf;
 mod texture;
 mod trial;
 
-pub use light::LightOrigin;
+pub use light::{Kindled, LightOrigin};
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
-pub use prefilter::{BuildCost, Prefilter, PrefilterOf, Strategy};
+pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
 pub use shelf::Shelf;
 pub use texture::{BumpSource, LoadError, Map, Texture};

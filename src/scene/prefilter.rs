@@ -10,7 +10,7 @@ use super::shelf::{Kept, Shelf};
 use super::{Current, Halt, Map, Material, Progress, SceneOf, Stage, Watch};
 use crate::lobe::BaseLobe;
 use crate::method::{self, Damaged, Method, PrefilterError, Prefiltered, Refusal};
-use crate::texture::NormalMap;
+use crate::texture::{Lookup, NormalMap};
 
 /// A filter strategy: a method with its options. Its label in the experiment is its [`Name`].
 #[derive(Component)]
@@ -20,12 +20,22 @@ pub struct Strategy(pub Box<dyn Method>);
 /// A prefilter: what a strategy makes of a texture for a material's base lobe. Spawned by the author
 /// for each combination that a trial needs, filled in when its turn comes.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[require(LookupBy)]
 #[allow(missing_docs)]
 pub struct PrefilterOf {
     pub texture: Entity,
     pub strategy: Entity,
     pub material: Entity,
 }
+
+/// How a prefilter's trials look up what lies under a footprint.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LookupBy(pub Lookup);
+
+/// A prefilter that is the same as another, spawned before, but for its [`LookupBy`]: it takes what that one
+/// has.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct SameAs(pub Entity);
 
 /// A prefilter that was built, or the reason why it cannot be.
 #[derive(Component, Clone)]
@@ -55,15 +65,21 @@ fn prepare(
     (halt, watch, shelf): (Res<Halt>, Res<Watch>, Option<Res<Shelf>>),
     (scenes, names): (Query<&SceneOf>, Query<&Name>),
     (maps, strategies, materials): (Query<&Map>, Query<&Strategy>, Query<&Material>),
-    pending: Query<(Entity, &PrefilterOf), Without<Prefilter>>,
+    pending: Query<(Entity, &PrefilterOf, Option<&SameAs>), Without<Prefilter>>,
+    built: Query<(&Prefilter, &BuildCost)>,
     mut progress: MessageWriter<Progress>,
 ) {
     let Ok(scene) = scenes.get(current.0) else { return };
     let Ok(map) = maps.get(scene.texture) else { return };
     let wanted = |of: &PrefilterOf| of.texture == scene.texture && of.material == scene.material;
     // The smallest entity: query order is not promised.
-    let next = pending.iter().filter(|(_, of)| wanted(of)).min_by_key(|(entity, _)| *entity);
-    let Some((prefilter, of)) = next else { return };
+    let next = pending.iter().filter(|(_, of, _)| wanted(of)).min_by_key(|(entity, ..)| *entity);
+    let Some((prefilter, of, same)) = next else { return };
+    if let Some((other, cost)) = same.and_then(|same| built.get(same.0).ok()) {
+        commands.entity(prefilter).insert((other.clone(), *cost));
+        progress.write(Progress::Reloaded { prefilter });
+        return;
+    }
     let (Ok(strategy), Ok(material)) = (strategies.get(of.strategy), materials.get(of.material))
     else {
         return;

@@ -7,8 +7,8 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::system::{SystemParam, SystemState};
 
 use super::{
-    CameraPose, Current, Halt, LightSource, Map, Material, Prefilter, PrefilterOf, Progress,
-    SceneOf, Seed, Stage, Strategy, SurfaceShape, Tiling,
+    CameraPose, Current, Halt, LightSource, LookupBy, Map, Material, Prefilter, PrefilterOf,
+    Progress, SceneOf, Seed, Stage, Strategy, SurfaceShape, Tiling,
 };
 use crate::render::{self, Film, Filtered, PixelSampler, View};
 use crate::texture::NormalMap;
@@ -77,6 +77,7 @@ impl SceneView<'_, '_> {
             light: self.lights.get(of.light).ok()?.0.clone(),
             shading: material.shading,
             wrap: map.wrap(),
+            lookup: crate::texture::Lookup::default(),
         };
         Some(StagedScene { view: tiled(untiled, *tiling, &map), map, material })
     }
@@ -110,27 +111,27 @@ fn expose(
     current: Res<Current>,
     (halt, seed): (Res<Halt>, Res<Seed>),
     view: SceneView,
-    prefilters: Query<(&Prefilter, &PrefilterOf)>,
-    strategies: Query<&Strategy>,
+    (prefilters, strategies): (Query<(&Prefilter, &PrefilterOf, &LookupBy)>, Query<&Strategy>),
     pending: Query<(Entity, &TrialOf, &Spp), Without<Exposure>>,
     mut progress: MessageWriter<Progress>,
 ) {
     let Some(staged) = view.of(current.0) else { return };
     let ready = |trial: &TrialOf| {
-        let (prefilter, of) = prefilters.get(trial.prefilter).ok()?;
+        let (prefilter, of, lookup) = prefilters.get(trial.prefilter).ok()?;
         let card = strategies.get(of.strategy).ok()?.0.card();
-        Some((prefilter.0.as_ref().ok().cloned()?, card))
+        Some((prefilter.0.as_ref().ok().cloned()?, card, lookup.0))
     };
     let next = pending
         .iter()
         .filter(|(_, trial, _)| trial.scene == current.0)
         .filter_map(|(entity, trial, spp)| Some((entity, ready(trial)?, spp.0)))
         .min_by_key(|(entity, ..)| *entity);
-    let Some((trial, (prefiltered, card), spp)) = next else { return };
+    let Some((trial, (prefiltered, card, lookup), spp)) = next else { return };
+    let view = View { lookup, ..staged.view };
     let (sampler, start) = (PixelSampler::new(spp), Instant::now());
     let stop = || halt.now();
     let filtered = Filtered { map: &staged.map, card, prefiltered: prefiltered.as_ref() };
-    if let Ok(film) = render::trial(&staged.view, &filtered, &sampler, seed.0, 0, &stop) {
+    if let Ok(film) = render::trial(&view, &filtered, &sampler, seed.0, 0, &stop) {
         let cpu_secs = start.elapsed().as_secs_f64() * rayon::current_num_threads() as f64;
         commands.entity(trial).insert(Exposure { film: Arc::new(film), cpu_secs });
         progress.write(Progress::Rendered { trial });

@@ -1,5 +1,6 @@
 //! The part of a map that a pixel covers.
 
+use super::Lookup;
 use crate::geometry::elementary::log2_32;
 
 /// A pixel's (or a sample's) footprint: a parallelogram of the map about a point.
@@ -17,9 +18,16 @@ pub struct Footprint {
     pub along_x: [f32; 2],
     /// (∂u/∂y, ∂v/∂y) for one sample spacing.
     pub along_y: [f32; 2],
+    /// How what lies under it is averaged.
+    pub lookup: Lookup,
 }
 
 impl Footprint {
+    /// The whole map, looked up trilinearly.
+    pub fn whole() -> Self {
+        Self { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0], lookup: Lookup::Trilinear }
+    }
+
     /// The pyramid level for a map of `width` × `height` texels: log₂ of the footprint's longer side in
     /// texels (Williams 1983). Below 0 the map is magnified. A footprint of no size gives a very low,
     /// finite level; one that is not finite, the coarsest there is.
@@ -44,7 +52,13 @@ mod tests {
     use super::*;
 
     fn square(side: f32) -> Footprint {
-        Footprint { u: 0.5, v: 0.5, along_x: [side, 0.0], along_y: [0.0, side] }
+        Footprint {
+            u: 0.5,
+            v: 0.5,
+            along_x: [side, 0.0],
+            along_y: [0.0, side],
+            lookup: Lookup::default(),
+        }
     }
 
     #[test]

@@ -176,6 +176,14 @@ impl NormalMap {
         }
     }
 
+    /// The unit normal and weight at folded texture coordinates.
+    #[inline(always)]
+    pub fn normal_at(&self, u: f32, v: f32) -> Texel {
+        let [x, y, z, weight] = self.sample(u, v);
+        let length = (x * x + y * y + z * z).sqrt().max(f32::MIN_POSITIVE);
+        [x / length, y / length, z / length, weight]
+    }
+
     /// [`NormalMap::sample`] for `N` lanes (a multiple of 4) at once, the result channel by channel. `REPEAT` must say
     /// whether the map repeats; it is a constant so that the loop need not ask at every lane.
     #[inline(always)]

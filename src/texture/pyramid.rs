@@ -5,10 +5,14 @@
 //! Level 0 is not stored: it is encoded from the normal map as it is read, which saves three
 //! quarters of the memory.
 
+mod downsample;
+mod fetch;
+
 use rayon::prelude::*;
 
-use super::normal_map::bilinear;
-use super::{NormalMap, Texel};
+pub use downsample::{downsample, level_sizes, tap_weights};
+
+use super::{Levels, NormalMap, Texel};
 
 /// The numbers a method averages: how a texel of the normal map becomes `C` channels.
 pub trait Moments<const C: usize>: Send + Sync {
@@ -23,87 +27,51 @@ pub trait Moments<const C: usize>: Send + Sync {
     }
 }
 
-/// The sizes of all levels from the map's own down to 1 × 1; each side is half of the one below,
-/// rounded down, and at least 1.
-pub fn level_sizes(width: usize, height: usize) -> Vec<(usize, usize)> {
-    let halve =
-        |&(w, h): &(usize, usize)| (w > 1 || h > 1).then(|| ((w / 2).max(1), (h / 2).max(1)));
-    std::iter::successors(Some((width, height)), halve).collect()
-}
+/// Numbers behind the last cell, so that any channel can be the first of a vector load.
+const PADDING: usize = 4;
 
-/// Which of `from` cells lie under cell `k` when the same length is cut into `to` cells, and with
-/// what share: (index, weight) in order, weights summing to 1. Odd sizes share a cell between two.
-pub fn tap_weights(from: usize, to: usize, k: usize) -> impl Iterator<Item = (usize, f64)> {
-    // In units where a source cell is `to` long and a target cell is `from` long, all is integer.
-    let (start, end) = (k * from, (k + 1) * from);
-    (start / to..end.div_ceil(to)).map(move |i| {
-        let overlap = end.min((i + 1) * to) - start.max(i * to);
-        (i, overlap as f64 / from as f64)
-    })
-}
-
-/// Averages a `from`-sized grid of channels into a `to`-sized one, each target cell weighing what
-/// lies under it by area. Rows run in parallel; sums are in double precision in a fixed order, so
-/// the result is the same at any thread count.
-pub fn downsample<const C: usize>(
-    from: (usize, usize),
-    to: (usize, usize),
-    read: impl Fn(usize, usize) -> [f32; C] + Sync,
-) -> Vec<[f32; C]> {
-    let columns: Vec<Vec<(usize, f64)>> =
-        (0..to.0).map(|i| tap_weights(from.0, to.0, i).collect()).collect();
-    let mut out = vec![[0.0; C]; to.0 * to.1];
-    out.par_chunks_mut(to.0).enumerate().for_each(|(j, row)| {
-        let rows: Vec<(usize, f64)> = tap_weights(from.1, to.1, j).collect();
-        for (cell, columns) in row.iter_mut().zip(&columns) {
-            let mut sum = [0.0f64; C];
-            for &(y, weight_y) in &rows {
-                for &(x, weight_x) in columns {
-                    let (value, weight) = (read(x, y), weight_x * weight_y);
-                    for c in 0..C {
-                        sum[c] += weight * f64::from(value[c]);
-                    }
-                }
-            }
-            *cell = sum.map(|s| s as f32);
-        }
-    });
-    out
-}
-
-/// A stored level of a pyramid.
-#[derive(Clone, Debug)]
-struct Level<const C: usize> {
+/// Where a stored level stands in a pyramid's list of cells.
+#[derive(Clone, Copy, Debug)]
+struct Level {
     width: usize,
     height: usize,
-    texels: Vec<[f32; C]>,
+    /// Cells before its first.
+    start: usize,
 }
 
-/// Averages of `C` channels over blocks of a normal map, level by level.
+/// Averages of `C` channels, at most 12, over blocks of a normal map, level by level.
 #[derive(Clone, Debug)]
 pub struct Pyramid<M, const C: usize> {
     moments: M,
     /// Levels 1 and up.
-    levels: Vec<Level<C>>,
+    levels: Vec<Level>,
+    /// The channels of all their cells, one after the other; behind the last enough for a vector load.
+    channels: Vec<f32>,
 }
 
 impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
     /// Builds every level above the map, each from the one below.
     pub fn build(map: &NormalMap, moments: M) -> Self {
+        const { assert!(C > 0 && C <= 12, "three vectors hold a cell") };
         let sizes = level_sizes(map.width(), map.height());
-        let mut levels: Vec<Level<C>> = Vec::with_capacity(sizes.len() - 1);
+        let cells: usize = sizes[1..].iter().map(|(width, height)| width * height).sum();
+        let mut channels = Vec::with_capacity(cells * C + PADDING);
+        let mut levels = Vec::with_capacity(sizes.len() - 1);
+        let mut below: Vec<[f32; C]> = Vec::new();
         for pair in sizes.windows(2) {
-            let ((from, to), below) = ((pair[0], pair[1]), levels.last());
-            let texels = match below {
-                None => downsample(from, to, |i, j| moments.encode(map.texel(i, j))),
-                Some(level) => downsample(from, to, |i, j| level.texels[j * level.width + i]),
+            let (from, to) = (pair[0], pair[1]);
+            let texels = match levels.is_empty() {
+                true => downsample(from, to, |i, j| moments.encode(map.texel(i, j))),
+                false => downsample(from, to, |i, j| below[j * from.0 + i]),
             };
-            levels.push(Level { width: to.0, height: to.1, texels });
+            levels.push(Level { width: to.0, height: to.1, start: channels.len() / C });
+            channels.extend_from_slice(texels.as_flattened());
+            below = texels;
         }
-        for level in &mut levels {
-            level.texels.par_iter_mut().for_each(|cell| *cell = moments.store(*cell));
-        }
-        Self { moments, levels }
+        let (cells, _) = channels.as_chunks_mut::<C>();
+        cells.par_iter_mut().with_min_len(4096).for_each(|cell| *cell = moments.store(*cell));
+        channels.extend([0.0; PADDING]);
+        Self { moments, levels, channels }
     }
 
     /// How a texel becomes channels.
@@ -116,50 +84,33 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
         self.levels.len() + 1
     }
 
+    /// The form of the pyramid above `map`.
+    #[inline(always)]
+    pub fn form(&self, map: &NormalMap) -> Levels {
+        let (width, height, wrap) = (map.width(), map.height(), map.wrap());
+        Levels { width, height, wrap, top: self.levels.len() }
+    }
+
     /// Memory of the stored levels, in bytes.
     pub fn bytes(&self) -> usize {
-        self.levels.iter().map(|l| std::mem::size_of_val(l.texels.as_slice())).sum()
+        // Without the padding behind the last cell.
+        size_of_val(&self.channels[..self.channels.len() - PADDING])
     }
 
     /// All cells of `level`, row by row from v = 0.
     pub fn cells(&self, map: &NormalMap, level: usize) -> Vec<[f32; C]> {
-        match level {
-            0 => map.texels().iter().map(|&t| self.moments.store(self.moments.encode(t))).collect(),
-            _ => self.levels[level - 1].texels.clone(),
-        }
+        let Some(above) = level.checked_sub(1) else {
+            return map.texels().iter().map(|&texel| self.of_texel(texel)).collect();
+        };
+        let Level { width, height, start } = self.levels[above];
+        let (cells, _) = self.channels[start * C..].as_chunks::<C>();
+        cells[..width * height].to_vec()
     }
 
-    /// The channels at folded coordinates (u, v), bilinear within `level`.
+    /// What level 0 has for a texel.
     #[inline(always)]
-    fn at_level(&self, map: &NormalMap, level: usize, u: f32, v: f32) -> [f32; C] {
-        let wrap = map.wrap();
-        if level == 0 {
-            let across = wrap.taps(u, map.width());
-            let along = wrap.taps(v, map.height());
-            bilinear(across, along, |i, j| self.moments.store(self.moments.encode(map.texel(i, j))))
-        } else {
-            let Level { width, height, texels } = &self.levels[level - 1];
-            let (across, along) = (wrap.taps(u, *width), wrap.taps(v, *height));
-            bilinear(across, along, |i, j| texels[j * width + i])
-        }
-    }
-
-    /// The channels at folded coordinates (u, v) of the map this pyramid was built from, bilinear
-    /// within the two levels around `level` and linear between them (*trilinear*, Williams 1983).
-    /// A `level` outside the pyramid is held to its ends.
-    #[inline(always)]
-    pub fn trilinear(&self, map: &NormalMap, u: f32, v: f32, level: f32) -> [f32; C] {
-        let held = level.clamp(0.0, self.levels.len() as f32);
-        let below = held as usize;
-        let blend = held - below as f32;
-        let mut low = self.at_level(map, below, u, v);
-        if blend > 0.0 {
-            let high = self.at_level(map, below + 1, u, v);
-            for c in 0..C {
-                low[c] += blend * (high[c] - low[c]);
-            }
-        }
-        low
+    fn of_texel(&self, texel: Texel) -> [f32; C] {
+        self.moments.store(self.moments.encode(texel))
     }
 }
 

@@ -102,7 +102,13 @@ pub fn single(side: usize, [x, y, z]: [f64; 3]) -> Arc<NormalMap> {
 pub fn footprint(map: &NormalMap, u: f32, v: f32, level: f32) -> Footprint {
     let texels = level.exp2();
     let (w, h) = (map.width() as f32, map.height() as f32);
-    Footprint { u, v, along_x: [texels / w, 0.0], along_y: [0.0, texels / h] }
+    Footprint {
+        u,
+        v,
+        along_x: [texels / w, 0.0],
+        along_y: [0.0, texels / h],
+        ..Footprint::default()
+    }
 }
 
 /// The level at which the map is one cell.

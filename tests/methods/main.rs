@@ -10,6 +10,7 @@ mod fast;
 mod fixture;
 mod flat;
 mod kernels;
+mod lookup;
 mod magnified;
 mod rotation;
 mod soundness;

@@ -10,7 +10,7 @@ use super::fixture::{bumps, cases, footprint, half_vectors};
 /// A footprint of the map, as the map turned by 90° counter-clockwise has it.
 fn turned(at: Footprint) -> Footprint {
     let turn = |[u, v]: [f32; 2]| [-v, u];
-    Footprint { u: 1.0 - at.v, v: at.u, along_x: turn(at.along_x), along_y: turn(at.along_y) }
+    Footprint { u: 1.0 - at.v, v: at.u, along_x: turn(at.along_x), along_y: turn(at.along_y), ..at }
 }
 
 /// How far apart the two are: the root of Σ (D − D′)² over Σ D², D′ turned back.

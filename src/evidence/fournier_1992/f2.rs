@@ -48,7 +48,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         };
         0.5 * (of(-1.0) + of(1.0))
     };
-    let whole = Footprint { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0] };
+    let whole = Footprint::whole();
     let under = |name: &str| -> MultipleSurface {
         let method = method::build(name).expect("a method of the program's own");
         let prefiltered: Box<dyn Prefiltered> =

@@ -227,7 +227,7 @@ fn top(shadowing: Shadowing, task: &Task) -> Result<MultipleSurface, Halted> {
     let method = Fournier { shadowing, ..Fournier::default() };
     let map = Arc::new(Subject::Cylinder.map());
     let ready = method.prefilter(&map, &base, task.progress).map_err(|_| Halted)?;
-    let whole = Footprint { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0] };
+    let whole = Footprint::whole();
     Ok(ready.lobes_at(&whole))
 }
 

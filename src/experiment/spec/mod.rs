@@ -181,7 +181,17 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         }
         (label, method)
     });
-    let context = Context { catalogue, textures, methods, shape, tiles, material, reference, seed };
+    let context = Context {
+        catalogue,
+        textures,
+        methods,
+        shape,
+        elevation: camera.elevation,
+        tiles,
+        material,
+        reference,
+        seed,
+    };
     let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));
     Spec {
         name,

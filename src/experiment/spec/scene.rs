@@ -23,7 +23,8 @@ impl ImageSpec {
 /// Where the camera stands, and what it looks at, with z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSpec {
-    /// Degrees above the plane z = 0: in (0, 90] for a plane, (−90, 90) for a sphere.
+    /// Degrees above the plane z = 0: in (0, 90] for a plane, (−90, 90) for a sphere; a sweep over elevations
+    /// takes its place.
     pub elevation: f64,
     /// Degrees from +x towards +y.
     pub azimuth: f64,
@@ -40,17 +41,21 @@ pub(super) const AZIMUTH: Limits = Limits::from_to(-360.0, 360.0).degrees();
 
 impl CameraSpec {
     pub(super) fn read(reader: &Reader, shape: Shape) -> Self {
-        let elevation = match shape {
-            Shape::Plane => Limits::above(0.0, 90.0).degrees(),
-            _ => Limits::between(-90.0, 90.0).degrees(),
-        };
         Self {
-            elevation: reader.real("elevation", 40.0, elevation),
+            elevation: reader.real("elevation", 40.0, elevation_limits(shape)),
             azimuth: reader.real("azimuth", -90.0, AZIMUTH),
             fov: reader.real("fov", 25.0, Limits::above(0.0, 120.0).degrees()),
             distance: reader.real("distance", 4.0, distance_limits(shape)),
             target: target(reader, shape),
         }
+    }
+}
+
+/// How far above the plane z = 0 a camera may stand, degrees.
+pub(super) fn elevation_limits(shape: Shape) -> Limits {
+    match shape {
+        Shape::Plane => Limits::above(0.0, 90.0).degrees(),
+        _ => Limits::between(-90.0, 90.0).degrees(),
     }
 }
 

@@ -4,19 +4,20 @@ use super::catalogue::{Catalogue, unknown};
 use super::item::Item;
 use super::limits::Limits;
 use super::material::{Material, read_lobe};
-use super::method::MethodSpec;
+use super::method::{LOOKUPS, MethodSpec};
 use super::reader::Reader;
 use super::reference::ReferenceSpec;
-use super::scene::{Shape, distance_limits};
+use super::scene::{Shape, distance_limits, elevation_limits};
 use super::texture::TextureSpec;
 use crate::lobe::BaseLobe;
+use crate::texture::Lookup;
 
 /// What is combined with what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepSpec {
     /// The textures, in the order of the spec; at least one.
     pub textures: Vec<TextureSpec>,
-    /// The methods, in the order of the spec; at least one.
+    /// The methods, in the order of the spec, each by one lookup after the other; at least one.
     pub methods: Vec<MethodSpec>,
     /// Samples a pixel of every method but `unfiltered`, rising powers of two.
     pub spp: Vec<u32>,
@@ -24,6 +25,8 @@ pub struct SweepSpec {
     pub unfiltered_spp: Vec<u32>,
     /// How small the bumps are.
     pub scale: Scale,
+    /// Degrees above the plane z = 0 that the camera stands at, in the order of the spec; at least one.
+    pub elevations: Vec<f64>,
     /// The base lobes, in the order of the spec; at least one.
     pub lobes: Vec<BaseLobe>,
 }
@@ -51,6 +54,8 @@ pub(super) struct Context<'a> {
     /// The tables under `[method]`; `None` for one that is wrong.
     pub methods: Vec<(&'a str, Option<MethodSpec>)>,
     pub shape: Shape,
+    /// The camera's own elevation.
+    pub elevation: f64,
     /// The key `tiles` of `[surface]` and its value.
     pub tiles: Option<(Item<'a>, f64)>,
     pub material: Material,
@@ -70,7 +75,7 @@ impl SweepSpec {
         let unfiltered_spp = read_spp(own.clone(), context)
             .unwrap_or_else(|| continued(&spp, context.reference.spp / 16));
         let textures = read_textures(reader, context);
-        let methods = read_methods(reader, context);
+        let methods = by_lookups(reader, read_methods(reader, context));
         if let (Some(own), false) = (own, methods.iter().any(|m| m.name == UNFILTERED)) {
             let message = "`unfiltered_spp` has no effect: no method of the sweep is `unfiltered`";
             own.error(message.to_owned(), None);
@@ -79,6 +84,7 @@ impl SweepSpec {
             textures,
             methods,
             scale: read_scale(reader, context),
+            elevations: read_elevations(reader, context),
             lobes: read_lobes(reader, &context.material),
             spp,
             unfiltered_spp,
@@ -105,6 +111,28 @@ fn read_methods(reader: &Reader, context: &Context) -> Vec<MethodSpec> {
     let built_in = context.catalogue.method_names();
     let plain = |name: &str| MethodSpec::plain(context.catalogue, name);
     list.map_or_else(Vec::new, |list| named("method", &list, &context.methods, &built_in, plain))
+}
+
+/// The methods by each lookup of the list, or as they are if there is none.
+fn by_lookups(reader: &Reader, methods: Vec<MethodSpec>) -> Vec<MethodSpec> {
+    let Some(item) = reader.item("lookup") else { return methods };
+    let lookups = item.list("lookups", |item| item.choice(&LOOKUPS));
+    let mut all: Vec<MethodSpec> = Vec::new();
+    for method in methods {
+        // One that has a lookup of its own keeps it; one that has none stays as it is.
+        let fixed = method.lookup != Lookup::default();
+        let by = |lookup: &Lookup| method.by(*lookup, &item);
+        let each: Vec<MethodSpec> =
+            if fixed { Vec::new() } else { lookups.iter().filter_map(by).collect() };
+        all.extend(if each.is_empty() { vec![method] } else { each });
+    }
+    for (k, method) in all.iter().enumerate() {
+        if all[..k].iter().any(|other| other.label == method.label) {
+            let help = "give the table under [method] another name".to_owned();
+            item.error(format!("two methods would be called `{}`", method.label), Some(help));
+        }
+    }
+    all
 }
 
 /// What a list of names stands for: each is a table of the spec, or else built in.
@@ -153,6 +181,14 @@ fn continued(spp: &[u32], most: u32) -> Vec<u32> {
         counts.push(next);
     }
     counts
+}
+
+/// The elevations of the sweep, or the camera's one.
+fn read_elevations(reader: &Reader, context: &Context) -> Vec<f64> {
+    let limits = elevation_limits(context.shape);
+    let list = reader.item("elevation");
+    let list = list.map(|list| list.list("elevations", |item| item.real(limits)));
+    list.unwrap_or_else(|| vec![context.elevation])
 }
 
 fn read_scale(reader: &Reader, context: &Context) -> Scale {

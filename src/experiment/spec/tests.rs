@@ -111,7 +111,9 @@ use = "averaged"
 fn a_rich_spec_is_read_as_written() {
     let spec = parse(RICH).unwrap();
     assert_eq!(spec.light, LightSpec::Point { position: [0.0, 3.5, 1.0], intensity: 1.0 });
-    let SweepSpec { textures, methods, spp, unfiltered_spp, scale, lobes } = &spec.sweep;
+    let SweepSpec { textures, methods, spp, unfiltered_spp, scale, elevations, lobes } =
+        &spec.sweep;
+    assert_eq!(elevations, &[spec.camera.elevation]);
     assert_eq!(
         (spp.as_slice(), unfiltered_spp.as_slice()),
         ([1, 16].as_slice(), [1, 64].as_slice())
@@ -147,6 +149,25 @@ fn lobes_of_several_families_can_be_swept() {
 }
 
 #[test]
+fn an_environment_is_a_map_or_a_file() {
+    let light = |more: &str| {
+        parse(&format!("{SMALLEST}[light]\nkind = \"environment\"\n{more}")).unwrap().light
+    };
+    let LightSpec::Environment { source, rotation, intensity, filter } =
+        light("map = \"moon\"\nelevation = -5\nwidth = 33\nrotation = 30\nfilter = \"round\"\n")
+    else {
+        panic!("an environment")
+    };
+    assert_eq!((rotation, intensity, filter), (30.0, 1.0, crate::light::Filter::Round));
+    let EnvironmentSource::Map { name, width, values } = source else { panic!("a map") };
+    assert_eq!((name, width, values.number("elevation")), ("moon", 32, -5.0));
+    let LightSpec::Environment { source, .. } = light("file = \"../Cargo.toml\"\n") else {
+        panic!("an environment")
+    };
+    assert_eq!(source, EnvironmentSource::File { path: "experiments/../Cargo.toml".into() });
+}
+
+#[test]
 fn what_contradicts_itself_is_an_error() {
     for (more, message) in [
         ("distance = [1]\n", "a sweep over `distance` needs the key `tiles` in [surface]"),
@@ -178,6 +199,28 @@ fn what_contradicts_itself_is_an_error() {
             "[texture.x]\npattern = \"ribs\"\nprofile = \"flat\"\n",
             "`profile` must be \"round\" or \"square\", not \"flat\"",
         ),
+        ("[light]\nkind = \"environment\"\nmap = \"mon\"\n", "unknown environment \"mon\""),
+        (
+            "[light]\nkind = \"environment\"\nmap = \"moon\"\nfile = \"../Cargo.toml\"\n",
+            "[light] has both `map` and `file`",
+        ),
+        (
+            "[light]\nkind = \"environment\"\nfile = \"none.exr\"\n",
+            "there is no file experiments/none.exr",
+        ),
+        ("[light]\nkind = \"environment\"\nrun = \"level\"\n", "unknown key `run` in [light]"),
+        (
+            "[light]\nkind = \"environment\"\n[material]\nshading = \"microfacet\"\n",
+            "facets mirror an environment with shading \"ndf\" only",
+        ),
+        (
+            "[light]\nkind = \"environment\"\n[reference]\ntruth = \"relief\"\n",
+            "under an environment the truth is \"bumps\" only: what heights hide of it is not known",
+        ),
+        (
+            "[light]\nkind = \"environment\"\n[method.dark]\nuse = \"unfiltered\"\nshadowing = \"printed\"\n",
+            "[method.dark] looks for shadows, which an environment does not cast",
+        ),
         ("[texture.x]\npattern = \"ribs\"\ngreen = \"up\"\n", "unknown key `green` in [texture.x]"),
         ("[texture.x]\npattern = \"rib\"\ncount = 3\n", "unknown pattern \"rib\""),
     ] {
@@ -191,11 +234,16 @@ fn what_contradicts_itself_is_an_error() {
 fn the_manual_names_every_key_under_its_heading() {
     let mut keys = BTreeSet::new();
     let normal_file = "[texture.x]\nfile = \"../Cargo.toml\"\nkind = \"normal\"\n";
-    for text in [SMALLEST.to_owned(), RICH.to_owned(), format!("{SMALLEST}{normal_file}")] {
+    let around = "[light]\nkind = \"environment\"\n";
+    for more in ["", normal_file, around] {
+        let text = format!("{SMALLEST}{more}");
         let log = Log::new(Path::new("experiments/ribbed.toml"), &text);
         Spec::parse_with(&catalogue(), &log, &text).unwrap();
         keys.extend(log.keys());
     }
+    let log = Log::new(Path::new("experiments/ribbed.toml"), RICH);
+    Spec::parse_with(&catalogue(), &log, RICH).unwrap();
+    keys.extend(log.keys());
     assert!(keys.len() > 40, "the readers were asked: {keys:?}");
     let manual = include_str!("../../../docs/experiments.md");
     for (heading, key) in keys {
@@ -210,6 +258,10 @@ fn the_manual_names_every_key_under_its_heading() {
 #[test]
 fn no_option_hides_behind_a_key_of_its_table() {
     let known = Catalogue::all();
+    for parameter in crate::light::environment::maps::entries().iter().flat_map(|e| e.parameters) {
+        let taken = ["kind", "map", "file", "width", "rotation", "intensity", "filter"];
+        assert!(!taken.contains(&parameter.name), "{}", parameter.name);
+    }
     for parameter in known.patterns.iter().flat_map(|entry| entry.parameters) {
         let taken = ["pattern", "file", "width", "height", "seed", "wrap", "interpolation"];
         assert!(!taken.contains(&parameter.name), "{}", parameter.name);

@@ -36,9 +36,9 @@ impl Environment {
         // Probes reach ±REACH of what they lack of the long axis.
         let most = 0.5 * (PROBES - 1) as f64 * SPACING / REACH;
         let width = short.max(long / (1.0 + most * most)).max(long - FARTHEST);
-        let lacking = long - width;
+        let lacking = (long - width).max(0.0);
         let count = (REACH / SPACING * (lacking / width.max(f64::MIN_POSITIVE)).sqrt()).ceil();
-        if !(count >= 1.0) || lacking < 0.02 * long {
+        if count < 1.0 || lacking < 0.02 * long {
             return self.cone(direction, mean);
         }
         let axis = if b.abs() > 0.0 || half < 0.0 { [b, long - a] } else { [1.0, 0.0] };

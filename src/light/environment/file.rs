@@ -45,7 +45,7 @@ pub enum EnvironmentError {
         width: usize,
     },
     /// Some pixels are no radiances.
-    #[error("{}: {count} pixels are infinite, negative or not a number, the first, {x} from the left and {y} from the \
+    #[error("{}: {count} pixels are infinite or not a number, the first, {x} from the left and {y} from the \
              top (counted from 0), is {value}; replace them", path.display())]
     NoRadiance {
         /// The file.
@@ -74,7 +74,18 @@ impl From<ImageError> for EnvironmentError {
     }
 }
 
-/// The environment in an EXR or Radiance HDR file, turned and multiplied as [`Environment::new`] says.
+/// An environment from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Read {
+    /// The environment.
+    pub environment: Environment,
+    /// What may surprise about the file, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Reads the environment in an EXR or Radiance HDR file, turned and multiplied as [`Environment::new`] says.
+/// Pixels of negative luminance, which resampling leaves beside bright lights, are taken for black; a note
+/// tells.
 ///
 /// # Errors
 /// An [`EnvironmentError`].
@@ -82,9 +93,28 @@ pub fn read(
     path: impl AsRef<Path>,
     rotation: f64,
     intensity: f64,
-) -> Result<Environment, EnvironmentError> {
+) -> Result<Read, EnvironmentError> {
+    let path = path.as_ref();
     let image = inspect(path)?;
-    Ok(Environment::new(image.height, &image.values, rotation, intensity))
+    let notes = negative(path, &image).into_iter().collect();
+    let values: Vec<f32> = image.values.iter().map(|v| v.max(0.0)).collect();
+    Ok(Read { environment: Environment::new(image.height, &values, rotation, intensity), notes })
+}
+
+/// How many pixels are negative, if any, and where the lowest is.
+fn negative(path: &Path, image: &Luminance) -> Option<String> {
+    let below = |value: &&f32| **value < 0.0;
+    let count = image.values.iter().filter(below).count();
+    let lowest = image.values.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    let (place, value) = lowest.filter(|_| count > 0)?;
+    Some(format!(
+        "{}: {count} of {} pixels are negative and are taken for black; the lowest, {} from the left and {} \
+         from the top (counted from 0), is {value}",
+        path.display(),
+        image.values.len(),
+        place % image.width,
+        place / image.width
+    ))
 }
 
 /// The picture in such a file, once it is known to be an environment.
@@ -106,7 +136,7 @@ fn check(path: &Path, image: &Luminance) -> Result<(), EnvironmentError> {
     if width > MOST_ACROSS {
         return Err(EnvironmentError::TooLarge { path, width });
     }
-    let wrong = |value: &f32| !(value.is_finite() && *value >= 0.0);
+    let wrong = |value: &f32| !value.is_finite();
     let Some(first) = values.iter().position(wrong) else { return Ok(()) };
     let count = values.iter().filter(|v| wrong(v)).count();
     let (x, y, value) = (first % width, first / width, values[first]);
@@ -139,7 +169,7 @@ mod tests {
     fn exr_and_hdr_files_are_environments() {
         let folder = folder();
         let path = exr(folder.path(), "a.exr", 8, 4, 3.0);
-        let read_back = read(&path, 0.0, 2.0).unwrap();
+        let read_back = read(&path, 0.0, 2.0).unwrap().environment;
         assert_eq!(read_back.height(), 4);
         // Pixel (2, 1): 2.5/8 across, 1.5/4 down.
         let bright = super::super::Spot { across: 2.5 / 8.0, down: 1.5 / 4.0 }.direction();
@@ -149,7 +179,21 @@ mod tests {
         let pixels = vec![image::Rgb([0.5f32, 0.5, 0.5]); 8];
         let file = std::fs::File::create(&path).unwrap();
         image::codecs::hdr::HdrEncoder::new(file).encode(&pixels, 4, 2).unwrap();
-        assert!((read(&path, 0.0, 1.0).unwrap().mean() - 0.5).abs() < 1e-2);
+        assert!((read(&path, 0.0, 1.0).unwrap().environment.mean() - 0.5).abs() < 1e-2);
+    }
+
+    #[test]
+    fn negative_pixels_are_black_and_told_of() {
+        let folder = folder();
+        let found = read(exr(folder.path(), "dark.exr", 4, 2, -2.0), 0.0, 1.0).unwrap();
+        assert!(found.environment.mean() > 0.8 && found.environment.mean() < 0.9);
+        let [note] = found.notes.as_slice() else { panic!("{:?}", found.notes) };
+        let says = "1 of 8 pixels are negative and are taken for black; the lowest, 2 from the left and 1 from the \
+                    top (counted from 0), is -2";
+        assert!(note.ends_with(says), "{note}");
+        assert!(
+            read(exr(folder.path(), "fine.exr", 4, 2, 2.0), 0.0, 1.0).unwrap().notes.is_empty()
+        );
     }
 
     #[test]
@@ -160,7 +204,7 @@ mod tests {
         let channels =
             exr::prelude::SpecificChannels::build().with_channel::<f32>("Y").with_pixel_fn(pixel);
         exr::prelude::Image::from_channels((4, 2), channels).write().to_file(&path).unwrap();
-        assert!((read(&path, 0.0, 1.0).unwrap().mean() - 1.5).abs() < 1e-6);
+        assert!((read(&path, 0.0, 1.0).unwrap().environment.mean() - 1.5).abs() < 1e-6);
     }
 
     #[test]
@@ -175,10 +219,9 @@ mod tests {
         let odd = complaint(&exr(at, "odd.exr", 4, 2, f32::NAN));
         assert_eq!(
             odd,
-            "odd.exr: 1 pixels are infinite, negative or not a number, the first, 2 from the left and \
+            "odd.exr: 1 pixels are infinite or not a number, the first, 2 from the left and \
                          1 from the top (counted from 0), is NaN; replace them"
         );
-        assert!(complaint(&exr(at, "dark.exr", 4, 2, -2.0)).contains("counted from 0), is -2"));
         assert!(complaint(&at.join("none.exr")).starts_with("none.exr: there is no such file"));
         let whole = std::fs::read(exr(at, "a.exr", 64, 32, 1.0)).unwrap();
         let stored = |name: &str, bytes: &[u8], says: &str| {

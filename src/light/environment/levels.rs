@@ -25,8 +25,8 @@ pub(super) struct Levels {
 const ROWS: usize = 8;
 /// The last level's kernel is at least this wide, radians: all but even.
 const WIDEST: f64 = 3.0;
-/// Kernels end where they have fallen by e to this.
-const CUT: f64 = 12.0;
+/// Kernels end where they have fallen by e to this: they lose a part of 10⁻⁴.
+const CUT: f64 = 9.0;
 /// What a cell's own width and the bilinear lookup blur, a row's height squared: 1/12 + 1/6.
 const OWN: f64 = 0.25;
 

@@ -12,16 +12,20 @@ pub mod maps;
 mod tables;
 
 pub use cone::PROBES;
-pub use file::{EnvironmentError, inspect, read};
+pub use file::{EnvironmentError, Read, inspect, read};
 
+use rayon::prelude::*;
+
+use crate::geometry::Vec3;
 use grid::{Grid, Spot};
 use levels::Levels;
 use tables::Tables;
 
-use crate::geometry::Vec3;
-
 /// Most pixels across an environment's picture.
 pub const MOST_ACROSS: usize = 8192;
+
+/// Radiance towards a unit direction.
+pub type Radiance = dyn Fn(&Vec3) -> f64 + Sync;
 
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,28 +57,26 @@ impl Environment {
     /// The environment whose radiance towards a unit direction is `radiance`, on a picture `height` pixels
     /// high: each pixel is the mean of 4 × 4 directions within it.
     pub fn of(
-        radiance: &dyn Fn(&Vec3) -> f64,
+        radiance: &(dyn Fn(&Vec3) -> f64 + Sync),
         height: usize,
         rotation: f64,
         intensity: f64,
     ) -> Self {
         const FINER: usize = 4;
-        let (across, down) = (2 * height * FINER, height * FINER);
-        let mut values = Vec::with_capacity(2 * height * height);
-        for row in 0..height {
-            for column in 0..2 * height {
-                let mut sum = 0.0;
-                for k in 0..FINER * FINER {
-                    let (i, j) = (column * FINER + k % FINER, row * FINER + k / FINER);
-                    let spot = Spot {
-                        across: (i as f64 + 0.5) / across as f64,
-                        down: (j as f64 + 0.5) / down as f64,
-                    };
-                    sum += radiance(&spot.direction());
-                }
-                values.push((sum / (FINER * FINER) as f64) as f32);
+        let part = |index: usize, sub: usize| index as f64 + (sub as f64 + 0.5) / FINER as f64;
+        let pixel = |row: usize, column: usize| {
+            let mut sum = 0.0;
+            for k in 0..FINER * FINER {
+                let across = part(column, k % FINER) / (2 * height) as f64;
+                let down = part(row, k / FINER) / height as f64;
+                sum += radiance(&Spot { across, down }.direction());
             }
-        }
+            (sum / (FINER * FINER) as f64) as f32
+        };
+        let mut values = vec![0.0; 2 * height * height];
+        values.par_chunks_mut(2 * height).enumerate().for_each(|(row, line)| {
+            line.iter_mut().enumerate().for_each(|(column, value)| *value = pixel(row, column));
+        });
         Self::new(height, &values, rotation, intensity)
     }
 

@@ -70,19 +70,15 @@ pub(super) fn build(
     exponent: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<Level>, PrefilterError> {
-    let builder = Builder {
-        method,
-        map,
-        exponent,
-        directions: Directions::new(method.grid()),
-        cancelled: &|| progress.cancelled(),
-    };
+    let directions = Directions::new(method.grid());
+    let cancelled = &|| progress.cancelled();
+    let maker = Maker { method, exponent, directions: &directions, cancelled };
     let sizes = level_sizes(map.width(), map.height());
     // The largest regions first: what is left for the last moment is small.
     let places: Vec<Place> = sizes[1..].iter().rev().flat_map(|&size| Place::all(size)).collect();
     let (done, total) = (AtomicUsize::new(0), places.len());
     let make = |&place: &Place| {
-        let cell = builder.cell(place);
+        let cell = maker.cell(place.texels(map));
         progress.advance(done.fetch_add(1, Ordering::Relaxed) + 1, total);
         cell
     };
@@ -96,40 +92,38 @@ pub(super) fn build(
     Ok(levels)
 }
 
-/// What all cells have in common.
-struct Builder<'a> {
-    method: &'a Fournier,
-    map: &'a NormalMap,
-    exponent: f64,
-    directions: Directions,
-    cancelled: &'a (dyn Fn() -> bool + Sync),
+/// Makes peaks of normals.
+pub(super) struct Maker<'a> {
+    pub method: &'a Fournier,
+    pub exponent: f64,
+    pub directions: &'a Directions,
+    pub cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 
 /// Texels taken between two looks at whether to stop.
 const TEXELS_AT_A_TIME: usize = 4096;
 
-impl Builder<'_> {
-    /// `None` if cancelled.
-    fn cell(&self, place: Place) -> Option<Cell> {
+impl Maker<'_> {
+    /// The cell of these unit normals and weights; `None` if cancelled.
+    pub(super) fn cell(&self, normals: impl Iterator<Item = (Vec3, f64)>) -> Option<Cell> {
         if (self.cancelled)() {
             return None;
         }
         let (peaks, outcome) = match self.method.mode {
-            Mode::Paper => self.fitted(place)?,
-            Mode::Fast => self.mixed(place)?,
+            Mode::Paper => self.fitted(normals)?,
+            Mode::Fast => self.mixed(normals)?,
         };
         Some(Cell { peaks: peaks.iter().map(phong).collect(), outcome })
     }
 
     /// The paper's way: a fit to the sampled distribution.
-    fn fitted(&self, place: Place) -> Option<(Vec<Peak>, Outcome)> {
+    fn fitted(&self, normals: impl Iterator<Item = (Vec3, f64)>) -> Option<(Vec<Peak>, Outcome)> {
         let (unit, exponent) = ((self.exponent + 2.0) / TAU, self.exponent);
-        let normals: Vec<Peak> = place
-            .texels(self.map)
+        let normals: Vec<Peak> = normals
             .map(|(direction, weight)| Peak { amplitude: weight * unit, direction, exponent })
             .collect();
         let greedy = self.method.greedy;
-        let fit = reconstruct(&normals, &self.directions, greedy, self.cancelled)
+        let fit = reconstruct(&normals, self.directions, greedy, self.cancelled)
             .expect("a normal map holds unit normals and weights of at least 0")?;
         let mut peaks = fit.peaks;
         if self.method.rescaled && fit.fitted > 0 {
@@ -142,16 +136,16 @@ impl Builder<'_> {
     }
 
     /// The fast way: a mixture in closed form.
-    fn mixed(&self, place: Place) -> Option<(Vec<Peak>, Outcome)> {
+    fn mixed(&self, normals: impl Iterator<Item = (Vec3, f64)>) -> Option<(Vec<Peak>, Outcome)> {
         let greedy = self.method.greedy;
-        let mut normals = NormalBins::new(self.exponent, greedy.max_peaks);
-        for (k, (normal, weight)) in place.texels(self.map).enumerate() {
+        let mut bins = NormalBins::new(self.exponent, greedy.max_peaks);
+        for (k, (normal, weight)) in normals.enumerate() {
             if k % TEXELS_AT_A_TIME == 0 && (self.cancelled)() {
                 return None;
             }
-            normals.add(normal, weight);
+            bins.add(normal, weight);
         }
-        let found = mixture(&normals, greedy, self.cancelled)?;
+        let found = mixture(&bins, greedy, self.cancelled)?;
         let met = found.error < greedy.stop && found.largest < greedy.stop;
         Some((found.peaks, Outcome { fitted: found.fitted, met, failures: found.failures }))
     }

@@ -77,9 +77,9 @@ impl Prefiltered for ShadowedPeakMap {
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let map = &self.peaks.map;
         let level = at.level(map.width(), map.height());
-        let share = filtered_share(level);
+        let share = filtered_share(level, at.lookup);
         let mut surface = MultipleSurface::new();
-        self.peaks.each_peak(at, level, share, |peak, weight, k| {
+        self.peaks.each_peak(at, share, |peak, weight, k| {
             surface.add_behind(peak, weight, self.horizon(k), area(&peak));
         });
         let (lobe, area) = unfiltered_lobe_and_area(&self.peaks, at);
@@ -98,10 +98,10 @@ impl Prefiltered for ShadowedPeakMap {
             let (half, light, view) = (batch.half(lane), batch.light(lane), batch.view(lane));
             let at = batch.footprint(lane);
             let level = at.level(map.width(), map.height());
-            let share = filtered_share(level);
+            let share = filtered_share(level, at.lookup);
             let mut visibility = Visibility::default();
             slots.clear();
-            self.peaks.each_peak(&at, level, share, |peak, weight, k| {
+            self.peaks.each_peak(&at, share, |peak, weight, k| {
                 let horizon = self.horizon(k);
                 let part = visibility.of(&horizon, weight * area(&peak), light, view);
                 slots.push(peak, weight * part);

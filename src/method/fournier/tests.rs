@@ -31,7 +31,13 @@ const BASE: BaseLobe = BaseLobe::BlinnPhong { exponent: 40.0 };
 fn footprint(map: &NormalMap, u: f32, v: f32, level: f32) -> Footprint {
     let texels = level.exp2();
     let (w, h) = (map.width() as f32, map.height() as f32);
-    Footprint { u, v, along_x: [texels / w, 0.0], along_y: [0.0, texels / h] }
+    Footprint {
+        u,
+        v,
+        along_x: [texels / w, 0.0],
+        along_y: [0.0, texels / h],
+        ..Footprint::default()
+    }
 }
 
 fn prefiltered(method: &Fournier, map: &Arc<NormalMap>) -> Box<dyn Prefiltered> {

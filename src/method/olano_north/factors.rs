@@ -56,12 +56,13 @@ impl Moments<10> for Factors {
         let v = self.nine.variance;
         let weight = (xx + yy + zz) / (1.0 + 3.0 * v);
         let apart = 1.0 - (x * x + y * y + z * z) / (weight * weight).max(f32::MIN_POSITIVE);
-        let [x, y, z, xx, xy, xz, yy, yz, zz] = self.nine.round(nine);
+        let written = self.nine.round(nine);
         let factor = if apart <= ROUNDING + PART * v {
             self.single
         } else {
-            factor(&self.nine.gaussian(nine).cut, self.generator)
+            factor(&self.nine.gaussian(written).cut, self.generator)
         };
+        let [x, y, z, xx, xy, xz, yy, yz, zz] = written;
         [x, y, z, xx, xy, xz, yy, yz, zz, factor]
     }
 }

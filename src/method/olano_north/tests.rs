@@ -212,7 +212,7 @@ fn storage_is_as_large_as_it_says() {
         for (built, bytes) in built.iter().zip([4, 2, 1]) {
             assert_eq!(built.bytes(), cells * (9 * bytes + 4 * floats));
         }
-        let at = Footprint { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0] };
+        let at = Footprint::whole();
         let [exact, fine, coarse] =
             built.each_ref().map(|b| f64::from(b.lobes_at(&at).density([0.1, 0.05, 1.0])));
         let (fine, coarse) = ((fine / exact - 1.0).abs(), (coarse / exact - 1.0).abs());

@@ -13,6 +13,7 @@
 //! depends on how the map is turned. The printed forms keep that; the normalised ones interpolate K
 //! itself, whose interpolation is the mean of the cells' covariances.
 
+mod entries;
 mod normalised;
 mod printed;
 mod roughness;
@@ -21,11 +22,13 @@ use std::sync::Arc;
 
 use super::nearness;
 use super::one_lobe::OneLobeMap;
-use super::storage::{STORAGE, Storage};
-use super::{Card, Entry, Method, PrefilterError, Prefiltered, Progress, Refusal};
+use super::storage::Storage;
+use super::{Card, Method, PrefilterError, Prefiltered, Progress, Refusal};
 use crate::lobe::BaseLobe;
-use crate::parameter::{Domain, Parameter, Values};
+use crate::parameter::Values;
 use crate::texture::NormalMap;
+pub(super) use entries::entries;
+use entries::{CARDS, EXPONENT, FALL};
 use normalised::Normalised;
 use printed::{Printed, Reading, Shape};
 use roughness::Codes;
@@ -62,109 +65,6 @@ struct PrintedLobe {
     /// The constant exponent m; None for the base lobe's own.
     exponent: Option<f64>,
     gaussian: bool,
-}
-
-const SOURCE: &str = "Schilling 1997, Antialiasing of Bump-Maps, appendix A";
-
-const CARDS: [Card; 4] = [
-    Card {
-        name: "schilling-isotropic",
-        source: SOURCE,
-        summary: "Mean slope and the largest slope variance of the footprint, one round lobe.",
-        formula: "the base lobe's profile about the mean normal, variance σ₁² + 1/s in every direction",
-        limits: "one round lobe: directional bumps blur to both sides, and widths do not pool: cells \
-                 rough in different directions get wider lobes than all of them together",
-        normalised: true,
-        keeps_roughness: true,
-        precision: 1e-3,
-    },
-    Card {
-        name: "schilling-anisotropic",
-        source: SOURCE,
-        summary: "Mean slope and slope covariance of the footprint, one elliptical lobe.",
-        formula: "the base lobe's profile about the mean normal, slope covariance K + I/s",
-        limits: "one lobe: distributions with several peaks become one broad hill",
-        normalised: true,
-        keeps_roughness: true,
-        precision: 1e-3,
-    },
-    Card {
-        name: "schilling-isotropic-printed",
-        source: SOURCE,
-        summary: "The isotropic form with the paper's own lobe, which is not normalised.",
-        formula: "cosᵐα′, cos²α′ = σ₁²cos²α / (1 − cos²α + σ₁²cos²α); σ₁² is m times the variance",
-        limits: "not normalised: rough footprints shine too brightly, and widths do not pool",
-        normalised: false,
-        keeps_roughness: true,
-        precision: 1e-3,
-    },
-    Card {
-        name: "schilling-anisotropic-printed",
-        source: SOURCE,
-        summary: "The anisotropic form with the paper's own lobe, which is not normalised.",
-        formula: "cosᵐα′, cos²α′ = cos²α / (d⁴/q + cos²α), q = |Dᵀd|² unless read otherwise; D Dᵀ is m \
-                  times K + I/s",
-        limits: "not normalised: rough footprints shine too brightly, and widths do not pool; read \
-                 literally it is widest along a wrong axis",
-        normalised: false,
-        keeps_roughness: true,
-        precision: printed::TRIANGULAR,
-    },
-];
-
-const EXPONENT: Parameter = Parameter {
-    name: "exponent",
-    meaning: "the constant exponent m, which shapes the highlight's border while roughness alone says how wide \
-              it is; 0: the base lobe's",
-    domain: Domain::Real { default: 0.0, min: 0.0, max: 1e6 },
-};
-
-const FALL: Parameter = Parameter {
-    name: "fall",
-    meaning: "how brightness falls with α′: power: cosᵐα′; gaussian: exp(−½ tan²α′), a fixed function of cos²α′ \
-              with no exponent",
-    domain: Domain::Choice { words: &["power", "gaussian"] },
-};
-
-const READING: Parameter = Parameter {
-    name: "reading",
-    meaning: "what q is: deviation: |Dᵀd|², the variance in the direction of d, as is evidently meant; literal: \
-              |Dd|² as printed, widest along a wrong axis where slopes correlate; elliptical: d⁴/|D⁻¹d|², whose \
-              contours are the ellipses of K",
-    domain: Domain::Choice { words: &["deviation", "literal", "elliptical"] },
-};
-
-/// The registry's lines.
-pub(super) fn entries() -> [Entry; 4] {
-    [
-        Entry {
-            card: CARDS[0],
-            parameters: const { &[STORAGE] },
-            build: |values| Box::new(Schilling::normalised(false, values)),
-        },
-        Entry {
-            card: CARDS[1],
-            parameters: const { &[STORAGE] },
-            build: |values| Box::new(Schilling::normalised(true, values)),
-        },
-        Entry {
-            card: CARDS[2],
-            parameters: const { &[EXPONENT, FALL, STORAGE] },
-            build: |values| Box::new(Schilling::printed(false, Reading::Deviation, values)),
-        },
-        Entry {
-            card: CARDS[3],
-            parameters: const { &[READING, EXPONENT, FALL, STORAGE] },
-            build: |values| {
-                let reading = match values.word(READING.name) {
-                    "literal" => Reading::Literal,
-                    "elliptical" => Reading::Elliptical,
-                    _ => Reading::Deviation,
-                };
-                Box::new(Schilling::printed(true, reading, values))
-            },
-        },
-    ]
 }
 
 impl Schilling {

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use super::roughness::{carried, covariance, factor, widest};
 use super::*;
 use crate::lobe::Spread;
-use crate::method::Silent;
 use crate::method::one_lobe::OneLobe;
+use crate::method::{Entry, Silent};
 use crate::parameter::Value;
 use crate::texture::{Footprint, Pyramid, Wrap};
 
@@ -200,7 +200,7 @@ fn storage_is_as_large_as_it_says_and_as_exact_as_its_bits() {
         let float = if normalised { 6 * 4 } else { numbers * 4 };
         let bytes = [float, numbers * 2, numbers].map(|b| b * cells);
         assert_eq!([0, 1, 2].map(|k| built[k].bytes()), bytes, "{}", entry.card.name);
-        let at = Footprint { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0] };
+        let at = Footprint::whole();
         let [exact, fine, coarse] =
             built.each_ref().map(|b| f64::from(b.lobes_at(&at).density([0.1, 0.05, 1.0])));
         let (fine, coarse) = ((fine / exact - 1.0).abs(), (coarse / exact - 1.0).abs());

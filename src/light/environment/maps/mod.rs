@@ -5,7 +5,7 @@ mod stripes;
 mod studio;
 mod white;
 
-use crate::geometry::Vec3;
+use super::Radiance;
 use crate::parameter::{Parameter, Values};
 
 /// What a map is, for lists and help.
@@ -19,17 +19,14 @@ pub struct Card {
     pub summary: &'static str,
 }
 
-/// Radiance towards a unit direction, z up, +y ahead.
-pub type Radiance = Box<dyn Fn(&Vec3) -> f64>;
-
 /// A map the program knows.
 pub struct Entry {
     /// What it is.
     pub card: Card,
     /// Its options.
     pub parameters: &'static [Parameter],
-    /// Its radiance with these options (complete, within their domains).
-    pub build: fn(&Values) -> Radiance,
+    /// Its radiance with these options (complete, within their domains); z is up, +y ahead.
+    pub build: fn(&Values) -> Box<Radiance>,
 }
 
 /// Every map, in the order lists show them.
@@ -58,7 +55,7 @@ mod tests {
         let mut names: Vec<&str> = entries().iter().map(|e| e.card.name).collect();
         for entry in entries() {
             let radiance = (entry.build)(&Values::defaults(entry.parameters));
-            let environment = Environment::of(&radiance, 64, 0.0, 1.0);
+            let environment = Environment::of(&*radiance, 64, 0.0, 1.0);
             // As bright as a grey card to a few suns of irradiance 1.
             let mean = environment.mean();
             assert!((0.02..=1.0001).contains(&mean), "{}: {mean}", entry.card.name);
@@ -73,7 +70,7 @@ mod tests {
         let entry = find("moon").unwrap();
         let mut values = Values::defaults(entry.parameters);
         values.set("glow", crate::parameter::Value::Number(0.0));
-        let moon = Environment::of(&(entry.build)(&values), 512, 0.0, 1.0);
+        let moon = Environment::of(&*(entry.build)(&values), 512, 0.0, 1.0);
         // ∫ L dω = E for a small disc seen head on.
         let flux = moon.mean() * 4.0 * std::f64::consts::PI;
         assert!((flux - 1.0).abs() < 0.01, "{flux}");

@@ -22,7 +22,7 @@ fn built(map: &Arc<NormalMap>, texels: HorizonMap) -> ShadowedPeakMap {
     let method = Fournier::default();
     let levels = pyramid::build(&method, map, EXPONENT, &Silent).unwrap();
     let stored = levels.iter().map(lookup::StoredLevel::new).collect();
-    let peaks = PeakMap::new(Arc::clone(map), EXPONENT, stored);
+    let peaks = PeakMap::new(Arc::clone(map), method, EXPONENT, stored);
     let grid = HemisphereGrid::fournier();
     let collector = Collector {
         map,
