@@ -163,12 +163,17 @@ fn widest(form: Form) -> Claim {
     let (_, angle) = along.fold((0.0, 0.0), |best, here| if here.0 > best.0 { here } else { best });
     let truth = principal(CORRELATED)[2].to_degrees();
     Claim::near(
-        format!("direction in which the lobe is widest, degrees, K = (2.5 1.5; 1.5 2.5), {}", form.name()),
+        format!(
+            "direction in which the lobe is widest, degrees, K = (2.5 1.5; 1.5 2.5), {}",
+            form.name()
+        ),
         truth,
         angle,
         0.02,
     )
-    .because("D D\u{1d40} = K, so |D\u{1d40}d|² is the variance in direction d; |Dd|² belongs to another matrix, D\u{1d40}D")
+    .because(
+        "D Dᵀ = K, so |Dᵀd|² is the variance in direction d; |Dd|² belongs to another matrix, DᵀD",
+    )
 }
 
 /// How much wider than the ellipse the contours are.
@@ -225,8 +230,8 @@ fn contours() -> Figure {
     }
     series.push(curve("without roughness (K = I)", &|_| plain_radius()));
     let chart = Chart {
-        x: Axis::linear("slope of the half vector along e₁"),
-        y: Axis::linear("slope along e₂"),
+        x: Axis::linear("slope of the half vector along u"),
+        y: Axis::linear("slope along v"),
         series,
     };
     let caption = format!(
@@ -243,7 +248,7 @@ const SHOWN: [(&str, &str); 8] = [
     ("literal", "anisotropic, as printed: |Dd|²"),
     ("deviation", "anisotropic, |Dᵀd|²"),
     ("elliptical", "anisotropic, exactly elliptical"),
-    ("gaussian", "the same, fixed function exp(−½ tan²α′)"),
+    ("gaussian", "elliptical, exp(−½ tan²α′)"),
     ("schilling-isotropic", "isotropic, normalised"),
     ("schilling-anisotropic", "anisotropic, normalised"),
 ];

@@ -164,18 +164,21 @@ impl Footprint {
     }
 
     fn drawn(&self) -> Figure {
-        let step = (self.vectors.len() / DRAWN).max(1);
-        // A step that shares no factor with the side walks over all columns.
-        let cloud = self.vectors.iter().step_by(step | 1).copied().collect();
+        // Multiples of the golden ratio, folded: spread over the rows and columns of any map.
+        let pick = |i: usize| {
+            let share = i as f64 * 0.618_033_988_749_894_9;
+            self.vectors[((share - share.floor()) * self.vectors.len() as f64) as usize]
+        };
+        let cloud = (0..DRAWN.min(self.vectors.len())).map(pick).collect();
         let series = vec![
             Series { label: "perturbation vectors".into(), points: cloud, joined: false },
-            self.ellipse("xᵀK⁻¹x = 1", 1.0),
-            self.ellipse("xᵀK⁻¹x = 2", 2.0),
+            self.ellipse("ellipse of K", 1.0),
+            self.ellipse("√2 times as wide", 2.0),
         ];
         let chart = Chart { x: Axis::linear("f_u"), y: Axis::linear("f_v"), series };
         let caption = format!(
-            "Perturbation vectors of a footprint, {}, and two ellipses of their covariance: {:.1} % and {:.1} % are \
-             inside.",
+            "Perturbation vectors of a footprint, {}, and the ellipses xᵀK⁻¹x = 1 and 2 of their covariance: {:.1} % \
+             and {:.1} % are inside.",
             self.name,
             100.0 * self.share(1.0),
             100.0 * self.share(2.0),
