@@ -86,7 +86,9 @@ fn arc(x: f64, depth: f64) -> [f64; 2] {
     let crest = x.abs() <= 0.25;
     let across = if crest { x } else { x - 0.5_f64.copysign(x) };
     let below = (radius * radius - across * across).sqrt();
-    let (height, slope) = (below - (radius - rise), -across / below);
+    // radius − below, as a quotient: flat arcs have radii beside which their rise is nothing.
+    let fall = across * across / (radius + below);
+    let (height, slope) = (rise - fall, -across / below);
     if crest { [height, slope] } else { [-height, -slope] }
 }
 

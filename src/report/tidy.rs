@@ -227,7 +227,7 @@ mod tests {
         let results = fixture::results();
         let bytes = csv(&results);
         let mut reader = csv::Reader::from_reader(bytes.as_slice());
-        let read: Vec<f64> = reader.records().map(|r| r.unwrap()[11].parse().unwrap()).collect();
+        let read: Vec<f64> = reader.records().map(|r| r.unwrap()[12].parse().unwrap()).collect();
         assert_eq!(read, rows(&results).map(|row| row.value).collect::<Vec<_>>());
         for value in [0.1 + 0.2, 1e-300, 5e-324, 1e22, -0.0, 123_456.789] {
             assert_eq!(round_trip(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
