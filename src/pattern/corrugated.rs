@@ -86,9 +86,9 @@ fn arc(x: f64, depth: f64) -> [f64; 2] {
     let crest = x.abs() <= 0.25;
     let across = if crest { x } else { x - 0.5_f64.copysign(x) };
     let below = (radius * radius - across * across).sqrt();
-    // radius − below, as a quotient: flat arcs have radii beside which their rise is nothing.
-    let fall = across * across / (radius + below);
-    let (height, slope) = (rise - fall, -across / below);
+    // √(R² − x²) − (R − s), without the difference of two long radii.
+    let height = rise - across * across / (radius + below);
+    let slope = -across / below;
     if crest { [height, slope] } else { [-height, -slope] }
 }
 

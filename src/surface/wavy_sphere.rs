@@ -156,13 +156,13 @@ mod tests {
                     assert!((a.t - b.t).abs() < 1e-3);
                     assert!((a.frame.normal - b.frame.normal).norm() < 2e-3);
                     assert!((a.frame.tangent - b.frame.tangent).norm() < 2e-2, "{:?}", b.point);
+                    // Over a cell of 1.5° a parallel's length changes by 0.026 of tan latitude.
+                    let within = 0.01 + 0.027 * b.point.z.abs() / b.point.xy().norm();
                     for c in 0..2 {
                         let turn = a.uv[c] - b.uv[c];
                         assert!((turn - turn.round()).abs() < 2e-3, "{:?} {:?}", a.uv, b.uv);
-                        // A triangle has one gradient, and that of u grows towards the pole: by 3 % over half a
-                        // cell, 0.75°, at 26° from it.
                         let off = (a.gradient[c] - b.gradient[c]).norm();
-                        assert!(b.point.z.abs() > 0.9 || off < 0.05 * b.gradient[c].norm());
+                        assert!(off < within * b.gradient[c].norm(), "{off} {:?}", b.point);
                     }
                 }
             }

@@ -184,7 +184,7 @@ fn mirrors(part: &FinishedPart, words: &str) -> Option<Claim> {
     // Tiles of the flat texture may hold another number of texels.
     let flat = part.results.scenes.iter().find(alike);
     let flat = flat.or_else(|| part.results.scenes.iter().find(|s| s.key.texture == FLAT))?;
-    let averaged = |scene: &'_ SceneResult| -> Option<Arc<Film>> {
+    let averaged = |scene: &SceneResult| -> Option<Arc<Film>> {
         let trial: &TrialResult =
             scene.trials.iter().find(|t| t.method == "averaged" && t.spp == 1)?;
         Some(Arc::clone(&trial.film))
@@ -194,7 +194,8 @@ fn mirrors(part: &FinishedPart, words: &str) -> Option<Claim> {
         let scores = metric::scores(film, &mirror);
         scores.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |(_, value)| *value)
     };
-    let ratio = from_mirror(&*averaged(scene)?) / from_mirror(&scene.reference.film);
+    let filtered = averaged(scene)?;
+    let ratio = from_mirror(&filtered) / from_mirror(&scene.reference.film);
     Some(Claim::shown(
         format!(
             "RMSE of filtered bumps from a surface without bumps, of that of the converged image, {}",
