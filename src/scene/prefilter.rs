@@ -65,8 +65,10 @@ fn prepare(
     (halt, watch, shelf): (Res<Halt>, Res<Watch>, Option<Res<Shelf>>),
     (scenes, names): (Query<&SceneOf>, Query<&Name>),
     (maps, strategies, materials): (Query<&Map>, Query<&Strategy>, Query<&Material>),
-    pending: Query<(Entity, &PrefilterOf, Option<&SameAs>), Without<Prefilter>>,
-    built: Query<(&Prefilter, &BuildCost)>,
+    (pending, built): (
+        Query<(Entity, &PrefilterOf, Option<&SameAs>), Without<Prefilter>>,
+        Query<(&Prefilter, &BuildCost)>,
+    ),
     mut progress: MessageWriter<Progress>,
 ) {
     let Ok(scene) = scenes.get(current.0) else { return };

@@ -113,8 +113,8 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
         };
         let found = self.at_stored(map, above, u, v);
         let mut out = [0.0; C];
-        for q in 0..quads(C) {
-            let values = <[f32; 4]>::from(found[q]);
+        for (q, quad) in found.into_iter().enumerate().take(quads(C)) {
+            let values = <[f32; 4]>::from(quad);
             for (k, value) in values.into_iter().enumerate() {
                 if let Some(channel) = out.get_mut(first(q, C) + k) {
                     *channel = value;
@@ -186,7 +186,7 @@ impl<M: Moments<C>, const C: usize> Pyramid<M, C> {
             let values = <[f32; 4]>::from(Quad::lerp(low[q], high[q], blend));
             for (k, value) in values.into_iter().enumerate() {
                 let c = first(q, C) + k;
-                if c < C && (q + 1 == quads(C) || k < 4) {
+                if c < C {
                     put(c, value);
                 }
             }
