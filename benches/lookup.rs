@@ -72,8 +72,8 @@ impl Kernel for Show<'_> {
     fn run(self) {
         let Self(Colour { map, pyramid }, batch, radiance) = self;
         let (mut levels, mut found) = ([0.0; BATCH], [[0.0; BATCH]; 4]);
-        for i in 0..BATCH {
-            levels[i] = batch.footprint(i).level(map.width(), map.height());
+        for (i, level) in levels.iter_mut().enumerate() {
+            *level = batch.footprint(i).level(map.width(), map.height());
         }
         pyramid.trilinear_lanes(map, (&batch.u, &batch.v, &levels), batch.len, &mut found);
         for i in 0..BATCH {

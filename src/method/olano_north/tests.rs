@@ -27,10 +27,9 @@ fn moments_of_a_mixture_add_linearly() {
     };
     let top = pyramid.moments().nine.gaussian(cell);
     assert!((top.weight - 1.0).abs() < 1e-6);
-    let u = [0, 1, 2].map(|c| mean_of(&|t| t[c]));
-    for c in 0..3 {
-        let mean = f64::from(top.cut.length * top.cut.axis[c]);
-        assert!((mean - u[c]).abs() < 1e-6);
+    for (c, axis) in top.cut.axis.into_iter().enumerate() {
+        let mean = f64::from(top.cut.length * axis);
+        assert!((mean - mean_of(&|t| t[c])).abs() < 1e-6);
     }
     // S along n, by the texels.
     let n = top.cut.axis.map(f64::from);
