@@ -1,10 +1,13 @@
 //! Means of an environment over cones: round ones by level alone, elliptic ones by a few of those.
 
+use std::sync::LazyLock;
+
 use super::Environment;
 use crate::geometry::Vec3;
+use crate::geometry::elementary::exp64;
 
 /// The most round probes of an elliptic cone.
-pub const PROBES: usize = 13;
+pub const PROBES: usize = 33;
 
 /// Distance of neighbouring probes in standard deviations of one.
 const SPACING: f64 = 1.5;
@@ -56,7 +59,7 @@ impl Environment {
         lacking: f64,
         pairs: usize,
     ) -> f64 {
-        let weights = &WEIGHTS[pairs - 1];
+        let weights = &weights()[pairs - 1];
         let (sin, cos) = libm::sincos(REACH * lacking.sqrt() / pairs as f64);
         let mut sum = weights[0] * self.cone(direction, width);
         let (mut across, mut ahead) = (0.0, 1.0);
@@ -70,38 +73,52 @@ impl Environment {
     }
 }
 
-/// Weights of the middle probe and of each that follows to a side, for 1 to 6 pairs: e^(−f k²), which sum to
-/// 1 over all probes, with f such that the variance of the places is what it should be, [`REACH`]⁻² of the
-/// farthest place's square.
-const WEIGHTS: [[f64; PROBES / 2 + 1]; PROBES / 2] = [
-    [0.793388429752066, 0.103305785123967, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [0.430617522055234, 0.241847271797888, 0.042843967174495, 0.0, 0.0, 0.0, 0.0],
-    [0.282118191320538, 0.221086892974959, 0.10640418582844, 0.031449825536331, 0.0, 0.0, 0.0],
-    [
-        0.209166703769548,
-        0.183266302822501,
-        0.123268700273687,
-        0.063650694605485,
-        0.025230950413554,
-        0.0,
-        0.0,
-    ],
-    [
-        0.166010133561376,
-        0.152883064341942,
-        0.119408081054464,
-        0.07909656423579,
-        0.044435603140071,
-        0.021171620447045,
-        0.0,
-    ],
-    [
-        0.137544324728575,
-        0.130045104983598,
-        0.109912734288933,
-        0.083043315955169,
-        0.056087233777067,
-        0.033863046583649,
-        0.018276402047296,
-    ],
-];
+/// Weights of the middle probe and of each that follows to a side, for 1 to [`PROBES`]/2 pairs.
+fn weights() -> &'static [Vec<f64>] {
+    static ALL: LazyLock<Vec<Vec<f64>>> =
+        LazyLock::new(|| (1..=PROBES / 2).map(of_pairs).collect());
+    &ALL
+}
+
+/// e^(−f k²), which sum to 1 over all probes, with f such that the variance of the places is what it should be:
+/// [`REACH`]⁻² of the farthest place's square. It falls with f, which is found by halving.
+fn of_pairs(pairs: usize) -> Vec<f64> {
+    let normalised = |f: f64| {
+        let raw: Vec<f64> = (0..=pairs).map(|k| exp64(-f * (k * k) as f64)).collect();
+        let total = raw.iter().skip(1).fold(raw[0], |sum, weight| sum + 2.0 * weight);
+        raw.into_iter().map(|weight| weight / total).collect::<Vec<f64>>()
+    };
+    let variance = |weights: &[f64]| {
+        weights.iter().enumerate().fold(0.0, |sum, (k, weight)| sum + 2.0 * weight * (k * k) as f64)
+    };
+    let wanted = (pairs as f64 / REACH) * (pairs as f64 / REACH);
+    let (mut low, mut high) = (0.0, 8.0);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if variance(&normalised(middle)) > wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    normalised(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_have_the_variance_they_should() {
+        for (k, weights) in weights().iter().enumerate() {
+            let pairs = (k + 1) as f64;
+            let (mut total, mut second) = (weights[0], 0.0);
+            for (place, weight) in weights.iter().enumerate().skip(1) {
+                total += 2.0 * weight;
+                second += 2.0 * weight * (place * place) as f64;
+            }
+            assert!((total - 1.0).abs() < 1e-12);
+            assert!((second * REACH * REACH / (pairs * pairs) - 1.0).abs() < 1e-9, "{pairs}");
+        }
+    }
+}

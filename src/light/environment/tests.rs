@@ -57,7 +57,6 @@ fn round_cones_are_what_they_say() {
             count += 1.0;
         }
     }
-    println!("worst {worst}, mean {}", sum / count);
     // Half way between levels a blend of a narrow and a wide kernel stands for one between: near the
     // edge of the bright disc that is a few percent.
     assert!(worst < 0.1 && sum / count < 0.01, "worst {worst}, mean {}", sum / count);
@@ -68,7 +67,7 @@ fn elliptic_cones_are_what_they_say() {
     let environment = busy(128);
     let (mut worst, mut sum, mut count) = (0.0f64, 0.0, 0.0);
     for (long, short, degrees) in
-        [(0.2f64, 0.1f64, 20.0f64), (0.3, 0.1, -50.0), (0.4, 0.1, 90.0), (0.3, 0.29, 10.0)]
+        [(0.2f64, 0.1f64, 20.0f64), (0.3, 0.1, -50.0), (0.5, 0.07, 90.0), (0.3, 0.29, 10.0)]
     {
         let (s, c) = degrees.to_radians().sin_cos();
         let (l, m) = (long * long, short * short);
@@ -89,7 +88,6 @@ fn elliptic_cones_are_what_they_say() {
             count += 1.0;
         }
     }
-    println!("worst {worst}, mean {}", sum / count);
     assert!(worst < 0.1 && sum / count < 0.015, "worst {worst}, mean {}", sum / count);
 }
 
