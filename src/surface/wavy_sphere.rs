@@ -155,7 +155,8 @@ mod tests {
                 if b.frame.normal.dot(&direction.normalize()) < -0.3 && b.point.z.abs() < 0.99 {
                     assert!((a.t - b.t).abs() < 1e-3);
                     assert!((a.frame.normal - b.frame.normal).norm() < 2e-3);
-                    assert!((a.frame.tangent - b.frame.tangent).norm() < 2e-2, "{:?}", b.point);
+                    // A triangle has one direction of u, and east turns by up to a cell, 1.5°, over it.
+                    assert!((a.frame.tangent - b.frame.tangent).norm() < 0.0262, "{:?}", b.point);
                     // Over a cell of 1.5° a parallel's length changes by 0.026 of tan latitude.
                     let within = 0.01 + 0.027 * b.point.z.abs() / b.point.xy().norm();
                     for c in 0..2 {
