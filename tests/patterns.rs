@@ -361,12 +361,13 @@ fn normals_seen_from_above_are_those_of_the_heights() {
 fn corrugated_sheet_has_the_slopes_of_its_profile() {
     // A cosine of depth d a pitch has slopes of mean square (π d)²/2; texels of whole pitches meet it exactly.
     // Arcs of radius R = (1/16 + s²)/2s, s = d/2, over chords of half a pitch: the mean of x²/(R² − x²) over
-    // |x| < ¼, which is R/¼ artanh(¼/R) − 1.
+    // |x| < ¼, which is R/¼ artanh(¼/R) − 1. Texels 1/128 apart are its midpoint rule, short by
+    // (1/128)²/24 · 4 f′(¼) = 0.0013, as f′(¼) = R²/2(R² − 1/16)² = 127.
     let depth = 0.3;
     let radius: f64 = (0.0625 + depth * depth / 4.0) / depth;
     let arcs = 4.0 * radius * (0.25 / radius).atanh() - 1.0;
     let sine = (std::f64::consts::PI * depth).powi(2) / 2.0;
-    for (profile, want, within) in [("sine", sine, 1e-5), ("arcs", arcs, 1e-4)] {
+    for (profile, want, within) in [("sine", sine, 1e-5), ("arcs", arcs, 2e-3)] {
         for (axis, along) in [("v", 1), ("u", 0)] {
             let set = [
                 ("depth", number(depth)),
