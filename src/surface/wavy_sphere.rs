@@ -156,9 +156,10 @@ mod tests {
                     assert!((a.t - b.t).abs() < 1e-3);
                     assert!((a.frame.normal - b.frame.normal).norm() < 2e-3);
                     // A triangle has one direction of u, and east turns by up to a cell, 1.5°, over it.
-                    assert!((a.frame.tangent - b.frame.tangent).norm() < 0.0262, "{:?}", b.point);
-                    // Over a cell of 1.5° a parallel's length changes by 0.026 of tan latitude.
-                    let within = 0.01 + 0.027 * b.point.z.abs() / b.point.xy().norm();
+                    assert!((a.frame.tangent - b.frame.tangent).norm() < 0.027, "{:?}", b.point);
+                    // A triangle's plane is up to half a cell's diagonal, 1.06° or 0.0185, off the sphere's; and
+                    // over a cell of 1.5° a parallel's length changes by 0.026 of tan latitude.
+                    let within = 0.022 + 0.027 * b.point.z.abs() / b.point.xy().norm();
                     for c in 0..2 {
                         let turn = a.uv[c] - b.uv[c];
                         assert!((turn - turn.round()).abs() < 2e-3, "{:?} {:?}", a.uv, b.uv);
