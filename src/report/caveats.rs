@@ -13,8 +13,9 @@ const NAMED: usize = 6;
 
 /// Scenes by name, or their number if they are many.
 fn named(contests: &[&Contest]) -> String {
-    let names: Vec<_> = contests.iter().map(|c| c.name()).collect();
-    if unique(names.iter()).len() > NAMED { String::new() } else { format!(": {}", list(&names)) }
+    // Scenes of several settings share their names.
+    let names = unique(contests.iter().map(|c| c.name()));
+    if names.len() > NAMED { String::new() } else { format!(": {}", list(&names)) }
 }
 
 /// Where brute force itself was the closest, and what the lookup alone does there.

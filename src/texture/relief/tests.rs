@@ -6,19 +6,19 @@ fn relief(heights: HeightMap) -> Relief {
     Relief::new(Arc::new(heights))
 }
 
-/// The height of a ray from the surface above it, as fine steps find it: its least over the steps but
-/// the first few, which rounding decides.
+/// The least slope from where a ray starts to its height above the surface, as steps find it, each longer than
+/// the last by 0.002 of the way: surfaces with slopes up to 2 along each axis rise by less than 0.003 of the way
+/// between two steps. The first 10⁻⁵ are left to rounding.
 fn clearance(relief: &Relief, [x, y]: [f64; 2], d: [f64; 3]) -> f64 {
     let start = relief.height(x, y);
-    let step = 1.0 / 256.0;
-    let mut least = f64::INFINITY;
-    for k in 1..200_000 {
-        let t = f64::from(k) * step;
+    let (mut least, mut t) = (f64::INFINITY, 1e-5);
+    while t < 1e3 {
         let z = start + t * d[2];
         least = least.min((z - relief.height(x + t * d[0], y + t * d[1])) / t);
         if z > relief.range[1] {
             break;
         }
+        t *= 1.002;
     }
     least
 }
