@@ -61,10 +61,18 @@ fn halve<const C: usize>(
     let mut out = vec![[0.0; C]; to.0 * to.1];
     out.par_chunks_mut(to.0).enumerate().for_each(|(j, row)| {
         for (i, cell) in row.iter_mut().enumerate() {
-            let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| read(2 * i + x, 2 * j + y));
+            // Written out: the compiler leaves `map` over an array of cells as copies.
+            let mut sum = [0.0f64; C];
+            for y in 0..2 {
+                for x in 0..2 {
+                    let value = read(2 * i + x, 2 * j + y);
+                    for c in 0..C {
+                        sum[c] += f64::from(value[c]);
+                    }
+                }
+            }
             for c in 0..C {
-                let sum = four.iter().fold(0.0, |sum, value| sum + f64::from(value[c]));
-                cell[c] = (0.25 * sum) as f32;
+                cell[c] = (0.25 * sum[c]) as f32;
             }
         }
     });
