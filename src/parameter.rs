@@ -1,7 +1,18 @@
-//! Floor 0: options that a pattern or a method takes, described so that a spec can be checked against
-//! them and help can be printed from them.
+//! Floor 0: what patterns, methods and environments say of themselves: the options they take, described so that
+//! a spec can be checked against them and help can be printed from them.
 
 use std::collections::BTreeMap;
+
+/// What a pattern or an environment is, for lists, reports and help.
+#[derive(Clone, Copy, Debug)]
+pub struct Card {
+    /// Its name in specs.
+    pub name: &'static str,
+    /// Author, year, section it comes from, or what defines it.
+    pub source: &'static str,
+    /// What it looks like, in a sentence.
+    pub summary: &'static str,
+}
 
 /// One option of a pattern or method.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use super::args::ListArgs;
 use super::exit::Failure;
 use super::experiments;
 use crate::light::environment::maps;
-use crate::parameter::{Domain, Parameter};
+use crate::parameter::{Card, Domain, Parameter};
 use crate::{lobe, method, pattern};
 
 /// Surfaces, with what they are.
@@ -78,26 +78,12 @@ fn as_json() -> Json {
             })
         })
         .collect();
-    let patterns: Vec<Json> = pattern::entries()
-        .iter()
-        .map(|e| {
-            json!({
-                "name": e.card.name, "source": e.card.source, "summary": e.card.summary,
-                "parameters": parameters(e.parameters),
-            })
-        })
-        .collect();
+    let patterns: Vec<Json> =
+        pattern::entries().iter().map(|e| card(&e.card, e.parameters)).collect();
     let surfaces: Vec<Json> =
         SURFACES.iter().map(|(name, what)| json!({ "name": name, "summary": what })).collect();
-    let environments: Vec<Json> = maps::entries()
-        .iter()
-        .map(|e| {
-            json!({
-                "name": e.card.name, "source": e.card.source, "summary": e.card.summary,
-                "parameters": parameters(e.parameters),
-            })
-        })
-        .collect();
+    let environments: Vec<Json> =
+        maps::entries().iter().map(|e| card(&e.card, e.parameters)).collect();
     let multiple: Vec<Json> = lobe::named()
         .iter()
         .map(|s| json!({ "name": s.name, "source": s.source, "summary": s.meaning }))
@@ -109,6 +95,14 @@ fn as_json() -> Json {
         "surfaces": surfaces,
         "environments": environments,
         "multiple_surfaces": multiple,
+    })
+}
+
+/// A pattern or an environment as JSON.
+fn card(card: &Card, options: &[Parameter]) -> Json {
+    json!({
+        "name": card.name, "source": card.source, "summary": card.summary,
+        "parameters": parameters(options),
     })
 }
 

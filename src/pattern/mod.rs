@@ -16,19 +16,9 @@ mod view;
 mod waves;
 mod wavy_sphere;
 
+pub use crate::parameter::Card;
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
-
-/// What a pattern is, for lists, reports and help.
-#[derive(Clone, Copy, Debug)]
-pub struct Card {
-    /// Its name in specs.
-    pub name: &'static str,
-    /// Author, year, section it comes from, or what defines it.
-    pub source: &'static str,
-    /// What it looks like, in a sentence.
-    pub summary: &'static str,
-}
 
 /// A pattern the program knows.
 pub struct Entry {

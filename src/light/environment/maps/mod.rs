@@ -6,18 +6,8 @@ mod studio;
 mod white;
 
 use super::Radiance;
+pub use crate::parameter::Card;
 use crate::parameter::{Parameter, Values};
-
-/// What a map is, for lists and help.
-#[derive(Clone, Copy, Debug)]
-pub struct Card {
-    /// Its name in specs.
-    pub name: &'static str,
-    /// Where it comes from.
-    pub source: &'static str,
-    /// What it looks like, in a sentence.
-    pub summary: &'static str,
-}
 
 /// A map the program knows.
 pub struct Entry {
