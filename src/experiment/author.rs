@@ -18,7 +18,10 @@ use crate::scene::{
     PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
     Texture, Tiling, TrialOf,
 };
-use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
+use crate::surface::{
+    Cylinder, MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, bent_patch, drapery,
+    ribbon, teapot,
+};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -258,7 +261,11 @@ fn shape(spec: &SurfaceSpec) -> Shape {
     let shape = match spec.shape {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
-        ShapeSpec::Drapery => Shape::Drapery(drapery()),
+        ShapeSpec::Drapery => Shape::Mesh(drapery()),
+        ShapeSpec::Teapot => Shape::Patches(teapot()),
+        ShapeSpec::BentPatch => Shape::Patches(bent_patch()),
+        ShapeSpec::Cylinder => Shape::Cylinder(Cylinder::new()),
+        ShapeSpec::Ribbon => Shape::Patches(ribbon()),
         ShapeSpec::WavySphere(wavy) => {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }
