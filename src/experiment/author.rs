@@ -5,8 +5,8 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
-    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, ModelSpec, Reading as ReadingSpec, ReferenceSpec,
+    Scale, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
@@ -15,12 +15,12 @@ use crate::pattern::{self, Bumps};
 use crate::render::{Camera, direction};
 use crate::scene::{
     BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
-    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
-    Texture, Tiling, TrialOf,
+    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy,
+    SurfaceOrigin, SurfaceShape, Texture, Tiling, TrialOf,
 };
 use crate::surface::{
-    Cylinder, MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, bent_patch, drapery,
-    ribbon, teapot,
+    Cylinder, MainDirection, Mesh, Plane, Shape, Sphere, WavyFrame, WavySphere, bent_patch,
+    drapery, read_model, ribbon, teapot,
 };
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
@@ -95,7 +95,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .iter()
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
-    let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
+    let surface = spawn_surface(world, &spec.surface);
     let light = spawn_light(world, &spec.light);
     let placements = placements(world, spec);
 
@@ -253,6 +253,19 @@ fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
     }
 }
 
+fn spawn_surface(world: &mut World, spec: &SurfaceSpec) -> Entity {
+    let Some(ModelSpec { path, up }) = spec.model.clone() else {
+        return world.spawn(SurfaceShape(shape(spec))).id();
+    };
+    let axes = spec.axes;
+    let origin = SurfaceOrigin(Box::new(move || {
+        let model = read_model(&path, up).map_err(|error| LoadError(error.to_string()))?;
+        Ok(Shaped { shape: along(axes, Shape::Mesh(model.mesh)), notes: model.notes })
+    }));
+    world.spawn(origin).id()
+}
+
+/// A surface that the program makes itself.
 fn shape(spec: &SurfaceSpec) -> Shape {
     let frame = match spec.axes {
         AxesSpec::Sphere => WavyFrame::Sphere,
@@ -266,11 +279,18 @@ fn shape(spec: &SurfaceSpec) -> Shape {
         ShapeSpec::BentPatch => Shape::Patches(bent_patch()),
         ShapeSpec::Cylinder => Shape::Cylinder(Cylinder::new()),
         ShapeSpec::Ribbon => Shape::Patches(ribbon()),
+        // Nothing, if its file is not told; the spec sees to it that it is.
+        ShapeSpec::Mesh => Shape::Mesh(Mesh::new(Vec::new(), &[])),
         ShapeSpec::WavySphere(wavy) => {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }
     };
-    match spec.axes {
+    along(spec.axes, shape)
+}
+
+/// The surface with bumps along these axes.
+fn along(axes: AxesSpec, shape: Shape) -> Shape {
+    match axes {
         AxesSpec::MainDirection(main) => {
             Shape::MainDirection(MainDirection::new(shape, main.into()))
         }

@@ -153,3 +153,24 @@ fn silhouettes_are_finite() {
         }
     }
 }
+
+#[test]
+fn zz_debug() {
+    let origin = unit(4.243486530821574, 0.42676520755386754) * 4.0;
+    let direction =
+        Vec3::new(0.14647907975602192, -0.7218214183429913, 0.22731392945804718) - origin;
+    let step = Vec3::new(0.3, -0.2, 0.1);
+    for surface in SMOOTH.iter() {
+        for k in 0..3 {
+            let d = direction + step * (1e-6 * k as f64);
+            if let Some(h) = surface.intersect(origin, d) {
+                println!(
+                    "{k} {:?} off {:e} cos {}",
+                    h,
+                    (origin + d * h.t - h.point).norm(),
+                    d.normalize().dot(&h.plane)
+                );
+            }
+        }
+    }
+}
