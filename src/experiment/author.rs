@@ -5,8 +5,8 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
-    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, Reading as ReadingSpec, ReferenceSpec,
+    Scale, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
@@ -227,7 +227,7 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
             pattern::file::read(path, &reading).map_err(|error| LoadError(error.to_string()))?
         }
     };
-    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    let heights = heights || spec.interpolation.spline().is_some();
     if heights && bumps.heights.is_none() {
         let Integrated { heights, residual } = integrate(&bumps.normals);
         bumps.notes.push(residual.to_string());
@@ -235,6 +235,18 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
     }
     if let Some(heights) = bumps.heights.take() {
         bumps.normals = bumps.normals.with_heights(Arc::new(heights));
+    }
+    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    if spec.repeat > 1 {
+        let longest = bumps.normals.width().max(bumps.normals.height());
+        if longest * spec.repeat > MAX_REPEATED {
+            let (name, most) = (&spec.name, MAX_REPEATED / longest);
+            return Err(LoadError(format!(
+                "texture {name} is {longest} texels long: `repeat` may be {most} at most",
+                most = most.max(1)
+            )));
+        }
+        bumps.normals = bumps.normals.replicated(spec.repeat);
     }
     Ok(bumps)
 }

@@ -41,7 +41,7 @@ pub use scene::{CameraSpec, ImageSpec};
 pub(crate) use suggest::no_such;
 pub use surface::{AxesSpec, Shape, SurfaceSpec, WavySphereSpec};
 pub use sweep::{Scale, SweepSpec};
-pub use texture::{Reading, TextureSource, TextureSpec};
+pub use texture::{MAX_REPEATED, Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
 use crate::method::Truth;
