@@ -18,7 +18,9 @@ use crate::scene::{
     PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
     Texture, Tiling, TrialOf,
 };
-use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
+use crate::surface::{
+    MainDirection, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery,
+};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -275,6 +277,9 @@ fn shape(spec: &SurfaceSpec) -> Shape {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }
     };
+    if spec.perturbation != Perturbation::Tangent {
+        return Shape::Perturbed(Perturbed::new(shape, spec.perturbation));
+    }
     match spec.axes {
         AxesSpec::MainDirection(main) => {
             Shape::MainDirection(MainDirection::new(shape, main.into()))

@@ -25,7 +25,8 @@ mod tests {
         for name in ["polynomial", "fourier", "mound", "ripple"] {
             let entry = find(name).unwrap();
             let values = Values::defaults(entry.parameters);
-            let (width, height) = (512, 256);
+            // A ripple of 100 radians a width has a third derivative of 12000.
+            let (width, height) = (1536, 768);
             let bumps = (entry.build)(width, height, &values, 0);
             let heights = bumps.heights.unwrap();
             let mut most = 0.0f64;

@@ -18,12 +18,12 @@ pub const ENTRY: Entry = Entry {
             domain: Domain::Whole { default: 1, min: 1, max: 1024 },
         },
         Parameter {
-            name: "height",
+            name: "rise",
             meaning: "height of a mound, widths of its cell",
             domain: Domain::Real { default: 0.1, min: -100.0, max: 100.0 },
         },
         Parameter {
-            name: "width",
+            name: "spread",
             meaning: "standard deviation of its bell, widths of its cell",
             domain: Domain::Real { default: 0.15, min: 0.001, max: 0.25 },
         },
@@ -32,7 +32,7 @@ pub const ENTRY: Entry = Entry {
 };
 
 fn build(width: usize, height: usize, values: &Values, _seed: u64) -> Bumps {
-    let [count, h, sigma] = ["count", "height", "width"].map(|name| values.number(name));
+    let [count, h, sigma] = ["count", "rise", "spread"].map(|name| values.number(name));
     // Cells are as wide as the tile's width says; r is measured in that unit along v too.
     let aspect = height as f64 / width as f64;
     analytic::bumps(width, height, |u, v| {

@@ -20,7 +20,7 @@ pub const ENTRY: Entry = Entry {
             domain: Domain::Real { default: 4.0, min: 0.0, max: 1000.0 },
         },
         Parameter {
-            name: "height",
+            name: "rise",
             meaning: "height in the middle, widths of the tile",
             domain: Domain::Real { default: 0.012, min: -100.0, max: 100.0 },
         },
@@ -29,7 +29,7 @@ pub const ENTRY: Entry = Entry {
 };
 
 fn build(width: usize, height: usize, values: &Values, _seed: u64) -> Bumps {
-    let [rings, h] = ["rings", "height"].map(|name| values.number(name));
+    let [rings, h] = ["rings", "rise"].map(|name| values.number(name));
     let aspect = height as f64 / width as f64;
     let radius = 0.5 * aspect.min(1.0);
     analytic::bumps(width, height, |u, v| {

@@ -6,6 +6,7 @@
 mod axes;
 mod drapery;
 mod mesh;
+mod perturbation;
 mod plane;
 mod sphere;
 mod wavy_sphere;
@@ -13,11 +14,13 @@ mod wavy_sphere;
 pub use axes::{Axes, MainDirection, along_main_direction};
 pub use drapery::drapery;
 pub use mesh::{Mesh, Vertex};
+pub use perturbation::{Derivatives, Perturbation, Perturbed};
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub use wavy_sphere::{WavyFrame, WavySphere};
 
 use crate::geometry::{Frame, Vec3};
+use crate::texture::Bend;
 
 /// A point of a surface that a ray hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,6 +83,8 @@ pub enum Shape {
     WavySphere(WavySphere),
     /// Any of these with a main direction for its bumps.
     MainDirection(MainDirection),
+    /// Any of these on which bumps are displacements, or as steep as them.
+    Perturbed(Perturbed),
 }
 
 /// Does the same with whichever surface a shape is.
@@ -91,6 +96,7 @@ macro_rules! with {
             Shape::Drapery($surface) => $does,
             Shape::WavySphere($surface) => $does,
             Shape::MainDirection($surface) => $does,
+            Shape::Perturbed($surface) => $does,
         }
     };
 }
@@ -104,6 +110,7 @@ impl Shape {
             Self::Drapery(_) => "drapery",
             Self::WavySphere(_) => "wavy-sphere",
             Self::MainDirection(turned) => turned.shape().name(),
+            Self::Perturbed(perturbed) => perturbed.shape().name(),
         }
     }
 
@@ -125,6 +132,15 @@ impl Shape {
             Self::Drapery(mesh) => Self::Drapery(mesh.tiled(tiles, aspect)),
             Self::WavySphere(sphere) => Self::WavySphere(sphere.tiled(tiles, aspect)),
             Self::MainDirection(turned) => Self::MainDirection(turned.tiled(tiles, aspect)),
+            Self::Perturbed(perturbed) => Self::Perturbed(perturbed.tiled(tiles, aspect)),
+        }
+    }
+
+    /// What becomes of a map's slopes at a hit; None where they are slopes in its frame.
+    pub fn bend(&self, hit: &Hit) -> Option<Bend> {
+        match self {
+            Self::Perturbed(perturbed) => Some(perturbed.bend(hit)),
+            _ => None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! Floor 1: what a bump map is made of. Height maps, normal maps, pyramids of moments, image files.
 
+mod bend;
 mod ellipse;
 mod footprint;
 mod height_map;
@@ -13,6 +14,7 @@ mod pyramid;
 mod relief;
 mod wrap;
 
+pub use bend::Bend;
 pub use footprint::Footprint;
 pub use height_map::HeightMap;
 pub use horizon::{HorizonMap, SIDES};
