@@ -5,6 +5,7 @@
 //! |---|---|---|
 //! | `report.md`, `report.html` | the answer, tables, figures, method cards | yes |
 //! | `metrics.csv`, `metrics.json` | one row a trial and metric | yes |
+//! | `flicker.csv` | of things that move: one row a method and figure of flicker | yes |
 //! | `plots/*.png`, `images/*.png` | what the reports show | yes |
 //! | `costs.csv`, `costs.md` | times and memory | no |
 //!
@@ -31,6 +32,7 @@ mod font;
 mod grid;
 mod lobe_sheet;
 mod mark;
+mod motion;
 mod page;
 mod phrase;
 mod png;
@@ -68,6 +70,9 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
     let mut folder = files::Folder::create(out)?;
     folder.put("metrics.csv", &tidy::csv(results))?;
     folder.put("metrics.json", &tidy::json(results))?;
+    if !results.sequences.is_empty() {
+        folder.put("flicker.csv", &motion::csv::csv(results))?;
+    }
     folder.put("costs.csv", &costs::csv(costs))?;
     folder.put("costs.md", costs::markdown(results, costs).as_bytes())?;
     let figures = figures::Figures::of(results);

@@ -51,8 +51,7 @@ impl<'a> Net<'a> {
         let diagonal = (width + rows).max(2) as f64 * std::f64::consts::FRAC_1_SQRT_2;
         let mut net = Self { table, rows, scale: ACROSS / diagonal, top: 0.0, size: [ACROSS, 1.0] };
         let places = (0..rows * width).map(|k| net.place(k % width, k / width)[1]);
-        let (low, high) =
-            places.fold((0.0f64, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
+        let (low, high) = places.fold((0.0f64, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
         net.top = high;
         net.size[1] = (high - low).clamp(1.0, 4.0 * ACROSS);
         net
@@ -104,7 +103,8 @@ mod tests {
 
     #[test]
     fn odd_tables_are_drawn() {
-        for values in [vec![], vec![f64::NAN], vec![1e300; 6], vec![f64::INFINITY, -1.0, 0.0, 2.0]] {
+        for values in [vec![], vec![f64::NAN], vec![1e300; 6], vec![f64::INFINITY, -1.0, 0.0, 2.0]]
+        {
             assert!(draw(&[table(0, values.clone()), table(2, values)]).width() > 0);
         }
         assert!(draw(&[]).width() > 0);

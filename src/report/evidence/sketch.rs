@@ -24,7 +24,8 @@ pub fn draw(sketches: &[Sketch]) -> Canvas {
         let label = font::fitted(&sketch.label, TEXT.size, true, paper.size[0] + GAP);
         canvas.text([left, 18.0], &label, Type { bold: true, ..TEXT });
         for stroke in &sketch.strokes {
-            let points: Vec<Point> = stroke.points.iter().filter_map(|p| paper.at(left, *p)).collect();
+            let points: Vec<Point> =
+                stroke.points.iter().filter_map(|p| paper.at(left, *p)).collect();
             draw_stroke(&mut canvas, stroke, &points);
         }
         left += paper.size[0] + 2.0 * GAP;
