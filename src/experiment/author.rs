@@ -23,7 +23,8 @@ use crate::scene::{
     TiledBefore, Tiling, TrialOf,
 };
 use crate::surface::{
-    MainDirection, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery,
+    Cylinder, MainDirection, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame, WavySphere,
+    bent_patch, drapery, ribbon, teapot,
 };
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
@@ -267,7 +268,11 @@ fn shape(spec: &SurfaceSpec) -> Shape {
     let shape = match spec.shape {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
-        ShapeSpec::Drapery => Shape::Drapery(drapery()),
+        ShapeSpec::Drapery => Shape::Mesh(drapery()),
+        ShapeSpec::Teapot => Shape::Patches(teapot()),
+        ShapeSpec::BentPatch => Shape::Patches(bent_patch()),
+        ShapeSpec::Cylinder => Shape::Cylinder(Cylinder::new()),
+        ShapeSpec::Ribbon => Shape::Patches(ribbon()),
         ShapeSpec::WavySphere(wavy) => {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }

@@ -115,10 +115,8 @@ impl Points<'_> {
         match &self.view.surface {
             Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*plane),
             Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*sphere),
-            Shape::Drapery(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
-            Shape::WavySphere(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
-            Shape::MainDirection(any) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
-            Shape::Perturbed(any) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
+            // Those that search for their hits gain nothing by a loop of their own.
+            any => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
         }
     }
 

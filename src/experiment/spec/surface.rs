@@ -28,6 +28,14 @@ pub enum Shape {
     Drapery,
     /// A sphere about the origin whose radius ripples, as a mesh.
     WavySphere(WavySphereSpec),
+    /// The teapot.
+    Teapot,
+    /// A flat patch with one corner bent back.
+    BentPatch,
+    /// The cylinder of radius 1 about z, 2 high.
+    Cylinder,
+    /// A strip that waves and faces −y.
+    Ribbon,
 }
 
 /// A rippled sphere.
@@ -75,6 +83,10 @@ impl Shape {
             Self::Sphere => "sphere",
             Self::Drapery => "drapery",
             Self::WavySphere(_) => "wavy-sphere",
+            Self::Teapot => "teapot",
+            Self::BentPatch => "bent-patch",
+            Self::Cylinder => "cylinder",
+            Self::Ribbon => "ribbon",
         }
     }
 }
@@ -94,6 +106,10 @@ impl SurfaceSpec {
             ("sphere", Word::Of(Shape::Sphere)),
             ("drapery", Word::Of(Shape::Drapery)),
             ("wavy-sphere", Word::WavySphere),
+            ("teapot", Word::Of(Shape::Teapot)),
+            ("bent-patch", Word::Of(Shape::BentPatch)),
+            ("cylinder", Word::Of(Shape::Cylinder)),
+            ("ribbon", Word::Of(Shape::Ribbon)),
         ];
         let shape = match reader.choice("shape", &shapes) {
             Word::Of(shape) => shape,
