@@ -1,6 +1,6 @@
 //! Figure 6: embossed letters.
 
-use super::common::{Scene, field, side_by_side, table};
+use super::common::{Scene, field, oblong, side_by_side, table};
 use crate::evidence::{Claim, Drawing, Exhibit, Figure, Halted, Panel, Row, Task};
 use crate::parameter::Value;
 use crate::render::direction;
@@ -88,6 +88,15 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
             )),
         ),
     ];
+    let title = [("text", Value::Text("SIGGRAPH '78".into())), ("depth", Value::Number(4.0))];
+    let title = oblong("letters", [512, 128], &title, task.seed);
+    let film = Scene::ribbon(0.25, [480, 150]).picture(&title, task)?;
+    let panels = vec![Panel::new("ribbon", "a title on a ribbon", film)];
+    exhibit.figures.push(Figure::new(
+        "ribbon",
+        "As on the ribbon of the proceedings' cover.",
+        Drawing::Images(side_by_side(panels, 1)),
+    ));
     exhibit.remarks =
         vec!["The font is one in the public domain, of eight by eight pixels a letter.".into()];
     Ok(exhibit)
