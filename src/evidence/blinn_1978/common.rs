@@ -20,7 +20,7 @@ pub const SIDE: usize = 64;
 const RIBBON: f64 = 0.6;
 
 /// Samples a pixel of the pictures: they are to show bumps, not how they alias.
-const SPP: u32 = 64;
+const SPP: u32 = 16;
 
 /// A pattern of the program's on a square map, with its heights.
 pub fn table(name: &str, side: usize, set: &[(&'static str, Value)], seed: u64) -> Arc<NormalMap> {
