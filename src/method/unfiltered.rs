@@ -33,6 +33,7 @@ const CARD: Card = Card {
     limits: "aliases: a pixel sees one normal of the many it covers",
     normalised: true,
     keeps_roughness: false,
+    fractal: false,
     precision: 1e-3,
 };
 
