@@ -2,8 +2,8 @@
 
 use super::vector::V3;
 use super::{
-    EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, SampledLobe, Shading, Slopes,
-    Spread,
+    EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, SampledLobe, Shading,
+    Slopes, Spread,
 };
 
 /// The most lobes a surface from a file may have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2

@@ -32,7 +32,9 @@ pub enum Measure {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NdfError {
     /// It is not square, or too small or large.
-    #[error("an NDF is a square image of {least} to {most} pixels a side, not {width} by {height}: scale or crop it")]
+    #[error(
+        "an NDF is a square image of {least} to {most} pixels a side, not {width} by {height}: scale or crop it"
+    )]
     Size {
         /// Pixels across.
         width: usize,
@@ -44,7 +46,9 @@ pub enum NdfError {
         most: usize,
     },
     /// A value is negative, NaN or infinite.
-    #[error("the value {value} at pixel ({x}, {y}) from the top left is no density: all must be finite and at least 0")]
+    #[error(
+        "the value {value} at pixel ({x}, {y}) from the top left is no density: all must be finite and at least 0"
+    )]
     Value {
         /// Pixels from the left.
         x: usize,
@@ -377,7 +381,8 @@ mod tests {
     const BASE: BaseLobe = BaseLobe::BlinnPhong { exponent: 20.0 };
 
     fn of_base(side: usize) -> NdfImage {
-        NdfImage::of_surface(&[BASE.about([0.0, 0.0, 1.0], 1.0)].into_iter().collect(), side).unwrap()
+        NdfImage::of_surface(&[BASE.about([0.0, 0.0, 1.0], 1.0)].into_iter().collect(), side)
+            .unwrap()
     }
 
     #[test]

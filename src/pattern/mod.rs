@@ -11,6 +11,7 @@ mod grid;
 mod hemispheres;
 mod relief;
 mod spectrum;
+mod synthesised;
 mod twill;
 mod view;
 mod waves;
@@ -19,6 +20,7 @@ mod wavy_sphere;
 pub use crate::parameter::Card;
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
+pub use synthesised::square_cells;
 
 /// A pattern the program knows.
 pub struct Entry {
@@ -55,6 +57,7 @@ pub fn entries() -> Vec<Entry> {
         waves::ENTRY,
         gaussian::ENTRY,
         brushed::ENTRY,
+        synthesised::ENTRY,
         wavy_sphere::ENTRY,
     ]
 }

@@ -12,7 +12,13 @@ impl Synthesis {
     ///
     /// Between the map's texels indices are interpolated, not normals. With an amount of 0 the map's own normals
     /// return, as far as the NDF has them.
-    pub fn with_detail(&self, map: &NormalMap, finer: usize, amount: f64, octaves: f64) -> NormalMap {
+    pub fn with_detail(
+        &self,
+        map: &NormalMap,
+        finer: usize,
+        amount: f64,
+        octaves: f64,
+    ) -> NormalMap {
         let (width, height) = (map.width() * finer, map.height() * finer);
         let indices = IndexTexture::of_map(&self.normals, map, Bits::Float);
         let row = |j: usize| -> Vec<Texel> {

@@ -41,7 +41,12 @@ pub struct IndexTexture {
 impl IndexTexture {
     /// Noise, mipmapped: "the finest mipmap level contains the most octaves, every coarser mipmap level contains one
     /// octave less". It repeats.
-    pub fn of_noise(synthesis: &Synthesis, [width, height]: [usize; 2], octaves: f64, bits: Bits) -> Self {
+    pub fn of_noise(
+        synthesis: &Synthesis,
+        [width, height]: [usize; 2],
+        octaves: f64,
+        bits: Bits,
+    ) -> Self {
         let sizes = level_sizes(width, height);
         let level = |(level, &(width, height)): (usize, &(usize, usize))| -> Vec<[f32; 2]> {
             let octaves = (octaves - level as f64).max(0.0);

@@ -93,7 +93,8 @@ mod tests {
     /// Two hills and nothing between.
     fn hills() -> Cumulative {
         let hill = |x: f32, y: f32| (1.0 - 9.0 * (x * x + y * y)).max(0.0);
-        let ndf = NdfImage::from_fn(48, |[x, y]| hill(x - 0.5, y + 0.1) + 2.0 * hill(x + 0.4, y - 0.3));
+        let ndf =
+            NdfImage::from_fn(48, |[x, y]| hill(x - 0.5, y + 0.1) + 2.0 * hill(x + 0.4, y - 0.3));
         Cumulative::of(&ndf.unwrap())
     }
 

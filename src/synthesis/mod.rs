@@ -7,6 +7,7 @@
 //! Turbulence is summed from octaves, more the nearer one looks; without any, the normal is the surface's own. A
 //! microfacet is shaded by the NDF again, in its own frame: the surface is taken to be fractal.
 
+mod agreement;
 mod bake;
 mod detail;
 mod indices;
@@ -16,6 +17,7 @@ mod table;
 mod tests;
 mod values;
 
+pub use agreement::{Agreement, LEAST};
 pub use bake::octaves_for;
 pub use indices::{Bits, IndexTexture};
 pub use inverse::Cumulative;

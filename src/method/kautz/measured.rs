@@ -165,16 +165,16 @@ mod tests {
             let [x, y] = [u, v].map(|c| libm::sin(std::f64::consts::TAU * c));
             [0.4 * x, 0.3 * y, 1.0, 1.0]
         });
-        let mixture: MultipleSurface = map
-            .texels()
-            .iter()
-            .map(|t| BASE.about([t[0], t[1], t[2]], 1.0 / 1024.0))
-            .collect();
+        let mixture: MultipleSurface =
+            map.texels().iter().map(|t| BASE.about([t[0], t[1], t[2]], 1.0 / 1024.0)).collect();
         let far = on(map).lobes_at(&Footprint::whole());
         for h in [[0.0, 0.0, 1.0], [0.3, 0.1, 0.9], [-0.4, 0.4, 0.8], [0.1, -0.5, 0.7]] {
             let h = crate::lobe::vector::unit(h);
             let (want, got) = (mixture.density(h), far.density(h));
-            assert!((got - want).abs() < 0.03 * mixture.density([0.0, 0.0, 1.0]), "{h:?}: {got} {want}");
+            assert!(
+                (got - want).abs() < 0.03 * mixture.density([0.0, 0.0, 1.0]),
+                "{h:?}: {got} {want}"
+            );
         }
     }
 

@@ -32,7 +32,8 @@ impl RadialNdf {
         let last = self.values.len() - 1;
         let place = cosine.clamp(0.0, 1.0) * last as f32;
         let low = (place as usize).min(last - 1);
-        let found = self.values[low] + (place - low as f32) * (self.values[low + 1] - self.values[low]);
+        let found =
+            self.values[low] + (place - low as f32) * (self.values[low + 1] - self.values[low]);
         if cosine > 0.0 { found } else { 0.0 }
     }
 }
@@ -133,7 +134,9 @@ mod tests {
         let synthesis = isotropic();
         let [eight, sixteen, float] = [Bits::Eight, Bits::Sixteen, Bits::Float]
             .map(|bits| SinglePass::new(Arc::clone(&synthesis), 64, 3.0, bits, None));
-        let normal = |pass: &SinglePass, u: f32| pass.microfacet(&Footprint { u, v: 0.4, ..Footprint::default() })[2];
+        let normal = |pass: &SinglePass, u: f32| {
+            pass.microfacet(&Footprint { u, v: 0.4, ..Footprint::default() })[2]
+        };
         let (mut coarse, mut fine) = (0.0f32, 0.0f32);
         for k in 0..500 {
             let u = k as f32 / 500.0;
