@@ -84,6 +84,7 @@ pub(super) fn collect(
                 film: Arc::new(image.0.film.clone()),
                 spp: image.0.spp,
                 rmse: image.0.rmse,
+                mean_error: image.0.mean_error,
                 truth: spec.reference.truth,
             },
             trials,
