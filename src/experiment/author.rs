@@ -1,22 +1,26 @@
 //! From a spec to entities: the author of the world.
 
+mod placement;
+
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 
+use placement::{Placement, placements, spawn_lights};
+
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, Reading as ReadingSpec, ReferenceSpec, Scale,
+    AxesSpec, EnvironmentSource, LightSpec, Pose, Reading as ReadingSpec, ReferenceSpec,
     Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
-use crate::render::{Camera, direction};
+use crate::render::direction;
 use crate::scene::{
-    BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
-    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape,
-    Texture, Tiling, TrialOf,
+    BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
+    ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture,
+    TiledBefore, Tiling, TrialOf,
 };
 use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
 use crate::texture::image_file::{HeightReading, NormalReading};
@@ -56,12 +60,27 @@ pub struct PlannedScene {
     pub distance: f64,
     /// Degrees above the plane z = 0 that its camera stands at.
     pub elevation: f64,
+    /// Which frame of its sequence it is, if things move.
+    pub frame: Option<Frame>,
     /// A file-name-safe identifier, unique in the experiment.
     pub slug: String,
+    /// The slug of its sequence: the same in all its frames. Of a still scene, its own.
+    pub sequence: String,
     /// Its prefilters, one a method in the spec's order.
     pub prefilters: Vec<Entity>,
     /// Its trials, method by method.
     pub trials: Vec<PlannedTrial>,
+}
+
+/// A frame of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Its number, the first being 0.
+    pub number: u32,
+    /// Where things stand in it.
+    pub pose: Pose,
+    /// Distance of the camera at rest, which the texture is tiled before.
+    pub rest: f64,
 }
 
 /// A trial of a scene.
@@ -93,8 +112,8 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
     let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
-    let light = spawn_light(world, &spec.light);
-    let placements = placements(world, spec);
+    let lights = spawn_lights(world, spec);
+    let placements = placements(world, spec, &lights);
 
     let mut plan = Plan { textures, scenes: Vec::new() };
     for (index, &texture) in plan.textures.iter().enumerate() {
@@ -103,18 +122,24 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
             let of = |strategy| PrefilterOf { texture, strategy, material };
             let prefilters = spawn_prefilters(world, spec, &strategies, of);
             for placement in &placements {
-                let of = SceneOf { texture, surface, camera: placement.camera, light, material };
-                let slug = slug(spec, index, &base, placement);
-                let scene = spawn_scene(world, spec, of, placement.tiling);
+                let Placement { camera, light, tiling, .. } = *placement;
+                let of = SceneOf { texture, surface, camera, light, material };
+                let sequence = slug(spec, index, &base, placement);
+                let scene = spawn_scene(world, spec, of, placement);
                 plan.scenes.push(PlannedScene {
                     entity: scene,
                     texture: index,
                     texture_key: texture_key.clone(),
                     base,
-                    tiling: placement.tiling,
+                    tiling,
                     distance: placement.distance,
                     elevation: placement.elevation,
-                    slug,
+                    frame: placement.frame,
+                    slug: match placement.frame {
+                        Some(frame) => format!("{sequence}-f{:03}", frame.number + 1),
+                        None => sequence.clone(),
+                    },
+                    sequence,
                     trials: spawn_trials(world, spec, scene, &prefilters),
                     prefilters: prefilters.clone(),
                 });
@@ -124,49 +149,19 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     plan
 }
 
-/// A camera, and how the texture is laid before it.
-struct Placement {
-    camera: Entity,
-    distance: f64,
-    elevation: f64,
-    tiling: Tiling,
-}
-
-/// Every elevation by every scale.
-fn placements(world: &mut World, spec: &Spec) -> Vec<Placement> {
-    let of_scale: Vec<(f64, Tiling)> = match &spec.sweep.scale {
-        Scale::TexelsPerPixel(list) => {
-            let tiled = |&texels| (spec.camera.distance, Tiling::TexelsPerPixel(texels));
-            list.iter().map(tiled).collect()
-        }
-        Scale::Distance { distances, tiles } => {
-            distances.iter().map(|&distance| (distance, Tiling::Tiles(*tiles))).collect()
-        }
-    };
-    let mut all = Vec::new();
-    for &elevation in &spec.sweep.elevations {
-        for &(distance, tiling) in &of_scale {
-            let camera = world.spawn(pose(spec, elevation, distance)).id();
-            all.push(Placement { camera, distance, elevation, tiling });
-        }
-    }
-    all
-}
-
-fn pose(spec: &Spec, elevation: f64, distance: f64) -> CameraPose {
-    let (at, image) = (&spec.camera, &spec.image);
-    let origin = direction(elevation, at.azimuth) * distance;
-    let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
-    CameraPose { camera, distance }
-}
-
-fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> Entity {
+fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, placement: &Placement) -> Entity {
     let centre = [spec.image.width / 2, spec.image.height / 2];
     // Beside the centre, a pixel halfway to the image's corner, where the highlight fades.
     let aside = [spec.image.width / 4, spec.image.height / 4];
     let ReferenceSpec { spp, replicates, truth } = spec.reference;
-    let reference = ReferencePlan { spp, replicates, truth };
-    world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+    let still = ReferencePlan { spp, replicates, truth, first: 1 };
+    let Some(Frame { number, .. }) = placement.frame else {
+        return world.spawn((of, placement.tiling, still, ProbePlan(vec![centre, aside]))).id();
+    };
+    // No two frames' references share a random number, so that the noise of their difference is known.
+    let reference = ReferencePlan { first: 1 + number * replicates, ..still };
+    let before = TiledBefore(placement.first);
+    world.spawn((of, placement.tiling, before, reference, ProbePlan(vec![centre]))).id()
 }
 
 /// One prefilter a method; those that differ in their lookup alone are built once.
@@ -312,7 +307,8 @@ fn surroundings(
     }
 }
 
-/// A scene's file-name-safe identifier: its texture, its lobe and elevation if there are several, its scale.
+/// A scene's file-name-safe identifier, but for the number of its frame: its texture, its lobe and elevation if
+/// there are several, its scale.
 fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> String {
     let safe = |text: &str| -> String {
         text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
@@ -331,7 +327,9 @@ fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> 
     }
     parts.push(match placement.tiling {
         Tiling::TexelsPerPixel(texels) => format!("{texels}-texels"),
-        Tiling::Tiles(_) => format!("at-{}", placement.distance),
+        Tiling::Tiles(_) => {
+            format!("at-{}", placement.frame.map_or(placement.distance, |frame| frame.rest))
+        }
     });
     parts.join("-")
 }

@@ -10,7 +10,7 @@ mod quad;
 mod ripples;
 mod simd;
 
-pub use frame::Frame;
+pub use frame::{Frame, turned};
 pub use hemisphere::{HemisphereGrid, Sample};
 pub use quad::Quad;
 pub use ripples::{Ripples, spherical_frame};

@@ -12,6 +12,7 @@ mod base;
 mod elliptic;
 mod facet;
 mod horizon;
+pub mod intensity;
 mod multiple_surface;
 mod named;
 mod ndf_image;

@@ -12,6 +12,7 @@ mod limits;
 mod log;
 mod material;
 mod method;
+mod motion;
 mod paper;
 #[cfg(test)]
 mod paper_tests;
@@ -35,6 +36,7 @@ use toml::de::DeTable;
 pub use error::{SpecError, SpecErrors};
 pub use light::{EnvironmentSource, LightSpec};
 pub use method::MethodSpec;
+pub use motion::{MotionKind, MotionSpec, Pose};
 pub use paper::{Experiment, PaperKeys, PaperSpec, RowKeys, RowSpec};
 pub use reference::ReferenceSpec;
 pub use scene::{CameraSpec, ImageSpec};
@@ -75,6 +77,8 @@ pub struct Spec {
     pub shading: Shading,
     /// The reference.
     pub reference: ReferenceSpec,
+    /// How every scene moves; None if all is still.
+    pub motion: Option<MotionSpec>,
     /// What is combined with what.
     pub sweep: SweepSpec,
     /// The file as written.
@@ -181,6 +185,9 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         }
         (label, method)
     });
+    let moves = root.item("motion").is_some();
+    let motion =
+        moves.then(|| root.section("motion", "[motion]", |r| MotionSpec::read(r, &camera, shape)));
     let context = Context {
         catalogue,
         textures,
@@ -190,6 +197,7 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         tiles,
         material,
         reference,
+        motion,
         seed,
     };
     let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));
@@ -204,6 +212,7 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         light,
         shading: material.shading,
         reference,
+        motion,
         sweep,
         text: text.to_owned(),
     }
