@@ -21,7 +21,7 @@ mod toksvig;
 mod truth;
 mod unfiltered;
 
-pub use batch::{BATCH, Batch, Lane};
+pub use batch::{BATCH, Batch, Bends, Lane};
 pub use constant::Constant;
 pub use mean_normal::MeanNormals;
 pub use registry::{Entry, brute_force, build, entries, find};
@@ -111,6 +111,12 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// The lookups it can be used with; none if it looks at no footprint. All of them unless said otherwise.
     fn lookups(&self) -> &'static [Lookup] {
         &Lookup::ALL
+    }
+
+    /// Whether it can be used where the surface bends the map's slopes ([`Footprint::bend`]); a method that
+    /// spreads normals would have to carry their spread along too.
+    fn bends(&self) -> bool {
+        false
     }
 
     /// Whether it looks at the heights a map's normals are of ([`NormalMap::heights`]). Where there are

@@ -1,15 +1,25 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
+mod analytic;
 mod bricks;
 mod brushed;
 mod corrugated;
 mod cylinders;
+mod depth;
 pub mod file;
 mod flat;
+mod fourier;
 mod gaussian;
+mod glyphs;
 mod grid;
 mod hemispheres;
+mod letters;
+mod mound;
+mod polynomial;
 mod relief;
+mod ripple;
+mod rivets;
+mod round_letters;
 mod spectrum;
 mod synthesised;
 mod twill;
@@ -54,6 +64,13 @@ pub fn entries() -> Vec<Entry> {
         twill::ENTRY,
         grid::ENTRY,
         bricks::ENTRY,
+        letters::ENTRY,
+        rivets::ENTRY,
+        round_letters::ENTRY,
+        polynomial::ENTRY,
+        fourier::ENTRY,
+        mound::ENTRY,
+        ripple::ENTRY,
         waves::ENTRY,
         gaussian::ENTRY,
         brushed::ENTRY,
