@@ -27,8 +27,8 @@ shape = "sphere"
 [material]
 exponent = 30.0
 [reference]
-spp = 64
-replicates = 2
+spp = 1024
+replicates = 4
 [sweep]
 texture = ["gaussian"]
 method = ["unfiltered", "averaged", "lean"]
@@ -109,11 +109,11 @@ fn an_approach_halves_what_a_pixel_covers() {
     let results = finished(&spec(&text), tempfile::tempdir().unwrap().path());
     let keys: Vec<_> =
         results.scenes.iter().map(|s| (s.key.distance, s.key.texels_per_pixel)).collect();
+    // A pixel beside the centre tells: on a plane that is seen aslant it covers a little less.
     for ((distance, texels), (far, wide)) in keys.iter().zip([(8.0, 4.0), (4.0, 2.0), (2.0, 1.0)]) {
-        assert!(
-            (distance / far - 1.0f64).abs() < 1e-12 && (texels / wide - 1.0f64).abs() < 1e-3,
-            "{keys:?}"
-        );
+        assert!((distance / far - 1.0f64).abs() < 1e-12, "{keys:?}");
+        assert!((texels / wide - 1.0f64).abs() < 0.03, "{keys:?}");
+        assert!((texels * 8.0 / (distance * keys[0].1) - 1.0).abs() < 1e-3, "{keys:?}");
     }
 }
 
@@ -156,9 +156,11 @@ fn an_interrupted_run_goes_on_at_its_frame_and_ends_the_same() {
     let (fresh, kept) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
     let (new, old) = (Arc::clone(&fresh), Arc::clone(&kept));
     let watch: Watcher = Arc::new(move |event| match event {
-        RunEvent::Scored { .. } => drop(new.fetch_add(1, Ordering::Relaxed)),
+        RunEvent::Scored { .. } => {
+            new.fetch_add(1, Ordering::Relaxed);
+        }
         RunEvent::Advanced { kept: true, work } if work > 0.0 => {
-            drop(old.fetch_add(1, Ordering::Relaxed))
+            old.fetch_add(1, Ordering::Relaxed);
         }
         _ => {}
     });

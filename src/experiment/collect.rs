@@ -11,7 +11,7 @@ use super::results::{
 use super::sequence::sequences;
 use super::spec::{Shape, Spec, TextureSource, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, Store};
-use crate::lobe::{Shading, Spread};
+use crate::lobe::Spread;
 use crate::metric;
 use crate::scene::{Exposure, Probes, ReferenceImage, Scores, Stagehand, Tiling};
 use crate::texture::Lookup;
@@ -84,6 +84,7 @@ pub(super) fn collect(
                 film: Arc::new(image.0.film.clone()),
                 spp: image.0.spp,
                 rmse: image.0.rmse,
+                mean_error: image.0.mean_error,
                 truth: spec.reference.truth,
             },
             trials,
@@ -120,10 +121,7 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
         light: spec.light.name().to_owned(),
         lobe: scene.base.name().to_owned(),
         parameter: scene.base.parameter(),
-        shading: match spec.shading {
-            Shading::Ndf => "ndf".to_owned(),
-            Shading::Microfacet => "microfacet".to_owned(),
-        },
+        shading: spec.shading.name().to_owned(),
         texels_per_pixel,
         distance: scene.distance,
         elevation: scene.elevation,

@@ -144,6 +144,8 @@ pub struct Reference {
     /// Estimated root mean square error of the image itself: the standard error of the mean of its
     /// independent replicates, root mean square over pixels.
     pub rmse: f64,
+    /// The mean over pixels of each pixel's standard error.
+    pub mean_error: f64,
     /// What it shows of the bumps.
     pub truth: Truth,
 }

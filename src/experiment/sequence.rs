@@ -76,7 +76,7 @@ pub fn sequences(scenes: &[SceneResult]) -> Vec<Sequence> {
 /// `None` of fewer than two frames.
 fn sequence(frames: &[SceneResult], range: Range<usize>) -> Option<Sequence> {
     let references = references(frames);
-    let errors: Vec<f64> = frames.iter().map(|frame| frame.reference.rmse).collect();
+    let errors: Vec<f64> = frames.iter().map(|frame| frame.reference.mean_error).collect();
     let truth = Flicker::of(&references, &references, &errors)?;
     let trials = frames[0].trials.iter().filter_map(|trial| {
         let films = films(frames, &trial.method, trial.spp)?;

@@ -25,6 +25,7 @@ const CARD: Card = Card {
     limits: "the roughness of the bumps it averages away is lost: highlights stay sharp",
     normalised: true,
     keeps_roughness: false,
+    fractal: false,
     precision: 1e-3,
 };
 

@@ -8,6 +8,7 @@ mod averaged;
 mod batch;
 mod constant;
 pub mod fournier;
+pub mod kautz;
 mod lean;
 mod mean_normal;
 mod nearness;
@@ -48,6 +49,9 @@ pub struct Card {
     pub normalised: bool,
     /// Whether bumps that fall into one footprint widen its lobes.
     pub keeps_roughness: bool,
+    /// Whether it takes bumps to go on below the map's texels, so that even a single normal is as rough as the whole
+    /// map; else, where a footprint holds a single normal, it is the base lobe.
+    pub fractal: bool,
     /// How exactly its numbers hold what it claims (energy, variance), as a relative error: rounding
     /// for closed forms, the stopping rule for fits.
     pub precision: f64,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{BATCH, Batch, Lane, Prefiltered};
+use super::{BATCH, Batch, Lane, Prefiltered, shade_by_lobes};
 use crate::geometry::{Kernel, vectorised};
 use crate::lobe::{BaseLobe, EllipticLobe, Lobe, MultipleSurface, Shading, Spread};
 use crate::texture::{Bend, Footprint, Lookup, Moments, NormalMap, Pyramid};
@@ -72,6 +72,9 @@ impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
     }
 
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        if !matches!(shading, Shading::Ndf | Shading::Microfacet) {
+            return shade_by_lobes(self, batch, shading, radiance);
+        }
         let (mut channels, mut share) = ([[0.0; BATCH]; C], [1.0; BATCH]);
         vectorised(Fetch { of: self, batch, channels: &mut channels, share: &mut share });
         if let Some(bends) = &batch.bends {
@@ -82,9 +85,10 @@ impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
             }
         }
         let fetched = Fetched { of: self, batch, channels: &channels, share: &share };
-        match shading {
-            Shading::Ndf => vectorised(Shade::<M, C, false> { fetched, radiance }),
-            Shading::Microfacet => vectorised(Shade::<M, C, true> { fetched, radiance }),
+        if shading == Shading::Ndf {
+            vectorised(Shade::<M, C, false> { fetched, radiance });
+        } else {
+            vectorised(Shade::<M, C, true> { fetched, radiance });
         }
     }
 }

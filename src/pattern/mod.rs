@@ -21,6 +21,7 @@ mod ripple;
 mod rivets;
 mod round_letters;
 mod spectrum;
+mod synthesised;
 mod twill;
 mod view;
 mod waves;
@@ -29,6 +30,7 @@ mod wavy_sphere;
 pub use crate::parameter::Card;
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
+pub use synthesised::square_cells;
 
 /// A pattern the program knows.
 pub struct Entry {
@@ -72,6 +74,7 @@ pub fn entries() -> Vec<Entry> {
         waves::ENTRY,
         gaussian::ENTRY,
         brushed::ENTRY,
+        synthesised::ENTRY,
         wavy_sphere::ENTRY,
     ]
 }

@@ -65,7 +65,7 @@ impl View {
         batch.len = len;
         batch.lookup = self.lookup;
         let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
-        match (directions || self.shading == Shading::Microfacet, spacing) {
+        match (directions || self.shading.needs_directions(), spacing) {
             (false, None) => points.fill::<false, false>(),
             (false, Some(_)) => points.fill::<false, true>(),
             (true, None) => points.fill::<true, false>(),

@@ -182,6 +182,17 @@ fn nothing_moves_unless_it_is_told_to() {
 }
 
 #[test]
+fn facets_mirror_all_light_unless_they_have_an_index() {
+    use crate::lobe::intensity::Fresnel;
+    let shading = |more: &str| {
+        let text = format!("{SMALLEST}[material]\nshading = \"torrance-sparrow\"\n{more}");
+        parse(&text).unwrap().shading
+    };
+    assert_eq!(shading(""), Shading::TorranceSparrow(Fresnel::Mirror));
+    assert_eq!(shading("index = 1.5\n"), Shading::TorranceSparrow(Fresnel::Index(1.5)));
+}
+
+#[test]
 fn what_contradicts_itself_is_an_error() {
     for (more, message) in [
         ("distance = [1]\n", "a sweep over `distance` needs the key `tiles` in [surface]"),
@@ -247,6 +258,11 @@ fn what_contradicts_itself_is_an_error() {
             "[motion]\nkind = \"recede\"\nfrom = 3\nto = 2\n",
             "to recede from 3, `to` must be more than that, not 2",
         ),
+        (
+            "[material]\nlobe = \"ggx\"\nshading = \"phong\"\n",
+            "Phong's highlight has an exponent, and this lobe has none",
+        ),
+        ("[material]\nindex = 1.5\n", "unknown key `index` in [material]"),
         ("[motion]\nframes = 1\n", "`frames` must be a whole number from 2 to 500, not 1"),
         ("[motion]\nto = 2\n", "unknown key `to` in [motion]"),
         (
@@ -269,7 +285,8 @@ fn the_manual_names_every_key_under_its_heading() {
     let around = "[light]\nkind = \"environment\"\n";
     let turning = "[motion]\nkind = \"drift\"\n";
     let coming = "[motion]\nkind = \"approach\"\nto = 2\n";
-    for more in ["", normal_file, around, turning, coming] {
+    let grooves = "[material]\nshading = \"torrance-sparrow\"\n";
+    for more in ["", normal_file, around, turning, coming, grooves] {
         let text = format!("{SMALLEST}{more}");
         let log = Log::new(Path::new("experiments/ribbed.toml"), &text);
         Spec::parse_with(&catalogue(), &log, &text).unwrap();

@@ -230,7 +230,7 @@ impl Slots {
     pub(super) fn radiance(&self, shading: Shading, half: V3, light: V3, view: V3) -> f32 {
         match shading {
             Shading::Ndf => self.sum(|peak| peak.density(half)),
-            Shading::Microfacet => self.sum(|peak| peak.radiance(shading, half, light, view)),
+            _ => self.sum(|peak| peak.radiance(shading, half, light, view)),
         }
     }
 
