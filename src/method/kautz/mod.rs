@@ -51,6 +51,10 @@ impl OwnNdf {
             Shading::Microfacet => {
                 density * facet(*frame, self.spread).geometry(batch.light(i), batch.view(i))
             }
+            Shading::Phong | Shading::TorranceSparrow(_) => {
+                let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
+                self.about(*frame, 1.0).radiance(shading, half, light, view)
+            }
         }
     }
 
