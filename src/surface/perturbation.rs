@@ -178,7 +178,8 @@ mod tests {
                 }),
             ] {
                 let [x, y, z] = form.bend(&hit, aspect).turn([-f[0] as f32, -f[1] as f32, 1.0]);
-                let got = (frame.tangent * x.into() + frame.bitangent * y.into() + frame.normal * z.into()).normalize();
+                let [x, y, z] = [x, y, z].map(f64::from);
+                let got = (frame.tangent * x + frame.bitangent * y + frame.normal * z).normalize();
                 prop_assert!((got - want.normalize()).norm() < 1e-4, "{form:?} {got} {want}");
             }
         }

@@ -10,20 +10,33 @@ use crate::method::{Silent, brute_force};
 use crate::parameter::{Value, Values};
 use crate::pattern;
 use crate::render::{Camera, Film, PixelSampler, View, direction, render};
-use crate::surface::{Plane, Shape, Surface};
+use crate::surface::{Plane, Shape, Sphere, Surface, bent_patch, ribbon};
 use crate::texture::{HeightMap, Lookup, NormalMap, Wrap};
 
 /// Entries along a side of the paper's table.
 pub const SIDE: usize = 64;
 
+/// Height of the ribbon, scene units.
+const RIBBON: f64 = 0.6;
+
 /// Samples a pixel of the pictures: they are to show bumps, not how they alias.
-const SPP: u32 = 64;
+const SPP: u32 = 16;
 
 /// A pattern of the program's on a square map, with its heights.
 pub fn table(name: &str, side: usize, set: &[(&'static str, Value)], seed: u64) -> Arc<NormalMap> {
+    oblong(name, [side, side], set, seed)
+}
+
+/// The same on a map of `width` × `height` texels.
+pub fn oblong(
+    name: &str,
+    [width, height]: [usize; 2],
+    set: &[(&'static str, Value)],
+    seed: u64,
+) -> Arc<NormalMap> {
     let entry = pattern::find(name).expect("a pattern of the program's own");
     let values = Values::defaults(entry.parameters).with(set);
-    let bumps = (entry.build)(side, side, &values, seed);
+    let bumps = (entry.build)(width, height, &values, seed);
     let heights = bumps.heights.map(Arc::new);
     Arc::new(match heights {
         Some(heights) => bumps.normals.with_heights(heights),
@@ -57,6 +70,36 @@ impl Scene {
             ),
             light: direction(40.0, 150.0),
             exponent: 10.0,
+        }
+    }
+
+    /// The flat patch with a corner bent back, a table on it `repeat` times along each side.
+    pub fn bent(repeat: f64, [width, height]: [usize; 2]) -> Self {
+        Self {
+            shape: Shape::Patches(bent_patch().tiled(0.5 * repeat, 1.0)),
+            camera: Camera::orbiting(6.0, 42.0, -105.0, 24.0, width, height),
+            light: direction(45.0, 150.0),
+            exponent: 8.0,
+        }
+    }
+
+    /// The ribbon, with a table whose height is `aspect` of its width over all of its height.
+    pub fn ribbon(aspect: f64, [width, height]: [usize; 2]) -> Self {
+        Self {
+            shape: Shape::Patches(ribbon().tiled(aspect / RIBBON, aspect)),
+            camera: Camera::orbiting(5.0, 8.0, -90.0, 13.0, width, height),
+            light: direction(35.0, -120.0),
+            exponent: 8.0,
+        }
+    }
+
+    /// The sphere, with `tiles` square tables around its equator.
+    pub fn ball(tiles: f64, side: usize) -> Self {
+        Self {
+            shape: Shape::Sphere(Sphere::new().tiled(tiles / std::f64::consts::TAU, 1.0)),
+            camera: Camera::orbiting(5.0, 20.0, -90.0, 25.0, side, side),
+            light: direction(45.0, -140.0),
+            exponent: 8.0,
         }
     }
 

@@ -83,6 +83,10 @@ fn one(scene: &SceneResult, part: &FinishedPart, exhibit: &mut Exhibit, table: &
         after / before,
         "below 1",
         after < before,
+    )
+    .because(
+        "a trilinear lookup smooths bumps that are still larger than pixels, and light that they would send elsewhere \
+         stays in the highlight",
     ));
     exhibit.claims.push(
         Claim::shown(
@@ -104,6 +108,11 @@ fn one(scene: &SceneResult, part: &FinishedPart, exhibit: &mut Exhibit, table: &
 /// "If the bump texture is averaged the effect will be to smooth out the bumps": how near the image is to that of no
 /// bumps.
 fn smoothed(scene: &SceneResult, part: &FinishedPart) -> Option<Claim> {
+    let bumpy = part.results.scenes.iter().filter(|other| other.key.texture == scene.key.texture);
+    let coarsest = bumpy.map(|other| other.key.texels_per_pixel).fold(0.0, f64::max);
+    if scene.key.texels_per_pixel < coarsest {
+        return None;
+    }
     let near = |other: &&SceneResult| {
         let ratio = other.key.texels_per_pixel / scene.key.texels_per_pixel;
         other.key.texture == FLAT && (0.8..1.25).contains(&ratio)
@@ -122,8 +131,7 @@ fn smoothed(scene: &SceneResult, part: &FinishedPart) -> Option<Claim> {
         ),
         "the effect will be to smooth out the bumps rather than average the intensities",
         ratio,
-        "below 1/2 where a pixel covers a whole bump",
+        "below 1/2, at the coarsest scale",
         ratio < 0.5,
-    )
-    .because("where bumps are larger than pixels they stay"))
+    ))
 }

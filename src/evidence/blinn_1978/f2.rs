@@ -2,7 +2,7 @@
 
 use super::common::{arrow, line};
 use crate::evidence::{
-    Axis, Chart, Claim, Drawing, Exhibit, Figure, Halted, Row, Series, Sketch, Table, Task,
+    Axis, Chart, Claim, Drawing, Exhibit, Figure, Halted, Row, Series, Sketch, Stroke, Table, Task,
 };
 use crate::geometry::Vec3;
 use crate::surface::Derivatives;
@@ -121,10 +121,10 @@ fn error(patch: fn(f64, f64) -> Vec3, h: f64, length: f64) -> f64 {
     };
     let of = |u: f64, v: f64| derivatives(patch, u, v, 1e-5);
     let moved = |u: f64, v: f64| patch(u, v) + of(u, v).normal().normalize() * f(u, v);
-    const POINTS: usize = 400;
+    const POINTS: usize = 3000;
     let off = |k: usize| {
-        let (u, v) = (0.3 + 0.37 * length * k as f64, 0.2 + 0.23 * length * k as f64);
-        // Bumps repeat: points far along them are brought back onto the patch.
+        // The same points whatever the bumps: the golden ratio's relatives spread them evenly.
+        let [u, v] = [0.754_877_666, 0.569_840_291].map(|a| a * (k + 1) as f64);
         let [u, v] = [u, v].map(|c| c - libm::floor(c));
         let p = of(u, v);
         let truth = derivatives(moved, u, v, 1e-4 * length).normal().normalize();
@@ -197,9 +197,7 @@ fn mapping() -> Figure {
     for (k, name) in [(0, "P"), (1, "P′ = P + F N/|N|"), (2, "F(u)")] {
         let end = [surface(1.2), mapped(1.2), [1.2, ground + bump(1.2)[0]]][k];
         let ink = [0, 1, 2][k];
-        // A name alone: a stroke of one point.
-        let mut label = line(vec![[end[0], end[1] + [-0.07, 0.07, 0.0][k]]], ink);
-        label.name = name.into();
+        let label = named([end[0], end[1] + [-0.07, 0.07, 0.0][k]], name, ink);
         strokes.push(label);
     }
     // Room for the names.
@@ -210,7 +208,7 @@ fn mapping() -> Figure {
 }
 
 fn turned() -> Figure {
-    let at = 0.35;
+    let at = 0.42;
     let (p, [f, f_u]) = (section(at), bump(at));
     let flat = |v: Vec3| [v.x, v.z];
     let (n, d) = (p.normal(), p.displacement([f_u, 0.0]));
@@ -240,7 +238,8 @@ fn turned() -> Figure {
         label: "Figure 4: the rotated normal".into(),
         strokes: vec![
             arrow(foot, flat(n), "N", 0),
-            arrow(tip, flat(d), "D", 2),
+            arrow(tip, flat(d), "", 2),
+            named([tip[0] + 0.4 * d.x, tip[1] + 0.4 * d.z + 0.04], "D", 2),
             arrow(foot, flat(n + d), "N′", 1),
             angle(foot, n, n + d),
         ],
@@ -254,8 +253,13 @@ fn turned() -> Figure {
     Figure::new("normals", caption, Drawing::Sketches(vec![perturbed, rotated]))
 }
 
+/// A name alone: a stroke of one point.
+fn named(at: [f64; 2], name: &str, ink: usize) -> Stroke {
+    Stroke { name: name.into(), ..line(vec![at], ink) }
+}
+
 /// The arc between two directions, with its name.
-fn angle(foot: [f64; 2], from: Vec3, to: Vec3) -> crate::evidence::Stroke {
+fn angle(foot: [f64; 2], from: Vec3, to: Vec3) -> Stroke {
     let [a, b] = [from, to].map(|v| libm::atan2(v.z, v.x));
     let at = |k: i32| {
         let (sin, cos) = libm::sincos(a + (b - a) * f64::from(k) / 20.0);

@@ -50,8 +50,17 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         let film = Scene::plane(45.0, [300, 230]).picture(map, task)?;
         panels.push(Panel::new(&format!("plane-{name}"), format!("flat patch, {label}"), film));
     }
+    for (name, label, map) in [("cliffs", "cliffs", &map), ("bevels", "bevels", &soft)] {
+        let film = Scene::bent(2.0, [300, 230]).picture(map, task)?;
+        let label = format!("one corner bent back, {label}");
+        panels.push(Panel::new(&format!("bent-{name}"), label, film));
+    }
     let drawing = Drawing::Images(side_by_side(panels, 2));
-    exhibit.figures.push(Figure::new("patch", "The grid on a patch.", drawing));
+    exhibit.figures.push(Figure::new(
+        "patch",
+        "The grid on a flat patch, and on one with a corner bent back.",
+        drawing,
+    ));
     exhibit.remarks = vec![format!(
         "Differences over two cells tilt the normals of {:.0} % of the entries; all others look straight up.",
         100.0 * leaning / (SIDE * SIDE) as f64

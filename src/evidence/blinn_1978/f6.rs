@@ -1,9 +1,9 @@
 //! Figure 6: embossed letters.
 
-use super::common::{Scene, field, side_by_side, table};
+use super::common::{Scene, field, oblong, side_by_side, table};
 use crate::evidence::{Claim, Drawing, Exhibit, Figure, Halted, Panel, Row, Task};
 use crate::parameter::Value;
-use crate::render::direction;
+use crate::render::{Film, direction};
 
 /// The row.
 pub const ROW: Row = Row {
@@ -42,26 +42,16 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         scene(150.0).picture(&pressed, task)?,
         scene(-30.0).picture(&fine, task)?,
     ];
-    // Dents are bumps lit from the other side: the half vector moves, so not to the last bit.
-    let alike = |a: &crate::render::Film, b: &crate::render::Film| {
-        let mean = |f: &crate::render::Film| {
-            f.pixels().iter().map(|p| f64::from(*p)).sum::<f64>() / f.pixels().len() as f64
-        };
-        let (p, q) = (mean(a), mean(b));
-        let sums = a.pixels().iter().zip(b.pixels()).fold([0.0; 3], |[ab, aa, bb], (&x, &y)| {
-            let (x, y) = (f64::from(x) - p, f64::from(y) - q);
-            [ab + x * y, aa + x * x, bb + y * y]
-        });
-        sums[0] / libm::sqrt(sums[1] * sums[2])
-    };
+    let flat = table("flat", 8, &[], task.seed);
+    let alike = correlation(&raised, &sunk, &*scene(150.0).picture(&flat, task)?);
     exhibit.claims = vec![
         Claim::count("entries of the table that are neither ground nor letter", 0, between),
         Claim::shown(
-            "correlation of the image with that of the letters pressed in",
+            "correlation of the letters' brightness, over the flat patch's, with that of letters pressed in",
             "darker is a dent and brighter a bump; this correspondence will be reversed [from] the back side (§3)",
-            alike(&raised, &sunk),
+            alike,
             "below 0",
-            alike(&raised, &sunk) < 0.0,
+            alike < 0.0,
         ),
         Claim::not_applicable(
             "likeness to Figure 6",
@@ -88,7 +78,29 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
             )),
         ),
     ];
+    let title = [("text", Value::Text("SIGGRAPH '78".into())), ("depth", Value::Number(4.0))];
+    let title = oblong("letters", [512, 128], &title, task.seed);
+    let film = Scene::ribbon(0.25, [480, 150]).picture(&title, task)?;
+    let panels = vec![Panel::new("ribbon", "a title on a ribbon", film)];
+    exhibit.figures.push(Figure::new(
+        "ribbon",
+        "As on the ribbon of the proceedings' cover.",
+        Drawing::Images(side_by_side(panels, 1)),
+    ));
     exhibit.remarks =
         vec!["The font is one in the public domain, of eight by eight pixels a letter.".into()];
     Ok(exhibit)
+}
+
+/// Correlation of what two images have over a third.
+fn correlation(a: &Film, b: &Film, ground: &Film) -> f64 {
+    let over = |film: &Film| -> Vec<f64> {
+        let pairs = film.pixels().iter().zip(ground.pixels());
+        let parts: Vec<f64> = pairs.map(|(p, g)| f64::from(*p) - f64::from(*g)).collect();
+        let mean = parts.iter().sum::<f64>() / parts.len() as f64;
+        parts.iter().map(|p| p - mean).collect()
+    };
+    let (a, b) = (over(a), over(b));
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    dot(&a, &b) / libm::sqrt(dot(&a, &a) * dot(&b, &b))
 }

@@ -1,13 +1,16 @@
 //! §6: what bump mapping costs.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::common::{SIDE, table};
 use crate::evidence::{Claim, Exhibit, Halted, Row, Table, Task};
-use crate::lobe::{BaseLobe, Shading};
-use crate::method::{BATCH, Batch, Prefiltered, Silent, brute_force};
-use crate::texture::{Footprint, Interpolation, NormalMap, Wrap};
-use std::sync::Arc;
+use crate::geometry::{Kernel, vectorised};
+use crate::lobe::round::{Phong, RoundLobe};
+use crate::lobe::vector::tan_squared;
+use crate::lobe::{BaseLobe, MultipleSurface, Shading};
+use crate::method::{BATCH, Batch, Lane, Prefiltered, Silent, brute_force};
+use crate::texture::{Footprint, Interpolation, NormalMap};
 
 /// The row.
 pub const ROW: Row = Row {
@@ -20,18 +23,18 @@ pub const ROW: Row = Row {
 };
 
 const BATCHES: usize = 1500;
-const BASE: BaseLobe = BaseLobe::BlinnPhong { exponent: 20.0 };
+const EXPONENT: f64 = 20.0;
+const BASE: BaseLobe = BaseLobe::BlinnPhong { exponent: EXPONENT };
 
 fn make(task: &Task) -> Result<Exhibit, Halted> {
     let map = table("grid", SIDE, &[], task.seed);
-    let flat = Arc::new(NormalMap::new(1, 1, Wrap::Repeat, vec![[0.0, 0.0, 1.0, 1.0]]));
     let of =
         |map: &Arc<NormalMap>| brute_force().prefilter(map, &BASE, &Silent).map_err(|_| Halted);
     let as_interpolated =
         |interpolation| Arc::new((*map).clone().with_interpolation(interpolation));
     let printed = as_interpolated(Interpolation::Table);
     let spline = as_interpolated(Interpolation::BSpline);
-    let colour = Coloured { map: Arc::clone(&map), phong: of(&flat)? };
+    let colour = Coloured { texture: Arc::clone(&map) };
     let ways: [(&str, Box<dyn Prefiltered>); 5] = [
         ("Phong shading, no texture", Box::new(Bare)),
         ("colour texture", Box::new(colour)),
@@ -83,28 +86,39 @@ impl Prefiltered for Bare {
         false
     }
 
-    fn lobes_at(&self, _: &Footprint) -> crate::lobe::MultipleSurface {
-        let mut surface = crate::lobe::MultipleSurface::new();
+    fn lobes_at(&self, _: &Footprint) -> MultipleSurface {
+        let mut surface = MultipleSurface::new();
         surface.add(BASE.about([0.0, 0.0, 1.0], 1.0), 1.0);
         surface
     }
 
-    fn shade(&self, batch: &Batch, _: Shading, radiance: &mut [f32; BATCH]) {
-        use crate::lobe::round::{Phong, RoundLobe};
-        use crate::lobe::vector::tan_squared;
-        let phong = Phong::new(20.0);
+    fn shade(&self, batch: &Batch, _: Shading, radiance: &mut Lane) {
+        vectorised(Shade { batch, radiance });
+    }
+}
+
+/// The kernel: the lobe about the surface's own normal.
+struct Shade<'a> {
+    batch: &'a Batch,
+    radiance: &'a mut Lane,
+}
+
+impl Kernel for Shade<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let phong = Phong::new(EXPONENT);
         for i in 0..BATCH {
-            let half = batch.half(i);
-            let sent = batch.irradiance[i] * phong.density(tan_squared([0.0, 0.0, 1.0], half));
-            radiance[i] = if half[2] > 0.0 { sent } else { 0.0 };
+            let half = self.batch.half(i);
+            let density = phong.density(tan_squared([0.0, 0.0, 1.0], half));
+            let sent = self.batch.irradiance[i] * density;
+            self.radiance[i] = if half[2] > 0.0 { sent } else { 0.0 };
         }
     }
 }
 
-/// Phong shading times a texture's first channel, which stands for a colour's.
+/// Phong shading times a texture's first number, which stands for a colour's.
 struct Coloured {
-    map: Arc<NormalMap>,
-    phong: Box<dyn Prefiltered>,
+    texture: Arc<NormalMap>,
 }
 
 impl Prefiltered for Coloured {
@@ -116,14 +130,28 @@ impl Prefiltered for Coloured {
         false
     }
 
-    fn lobes_at(&self, at: &Footprint) -> crate::lobe::MultipleSurface {
-        self.phong.lobes_at(at)
+    fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
+        Bare.lobes_at(at)
     }
 
-    fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut [f32; BATCH]) {
-        Bare.shade(batch, shading, radiance);
+    fn shade(&self, batch: &Batch, _: Shading, radiance: &mut Lane) {
+        vectorised(ShadeColoured { shade: Shade { batch, radiance }, texture: &self.texture });
+    }
+}
+
+/// The kernel of that.
+struct ShadeColoured<'a> {
+    shade: Shade<'a>,
+    texture: &'a NormalMap,
+}
+
+impl Kernel for ShadeColoured<'_> {
+    #[inline(always)]
+    fn run(self) {
         let mut colours = [[0.0; BATCH]; 4];
-        self.map.sample_lanes::<BATCH, true>(&batch.u, &batch.v, &mut colours);
+        let Shade { batch, radiance } = self.shade;
+        self.texture.sample_lanes::<BATCH, true>(&batch.u, &batch.v, &mut colours);
+        Shade { batch, radiance: &mut *radiance }.run();
         for i in 0..BATCH {
             radiance[i] *= 0.5 + 0.5 * colours[0][i];
         }
