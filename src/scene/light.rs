@@ -31,7 +31,7 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 }
 
 /// Makes the current scene's light if it is not there yet, or the one that it is, moved.
-fn kindle(
+pub(super) fn kindle(
     mut commands: Commands,
     current: Res<Current>,
     scenes: Query<&SceneOf>,
