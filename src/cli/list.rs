@@ -13,11 +13,15 @@ use crate::parameter::{Card, Domain, Parameter};
 use crate::{lobe, method, pattern};
 
 /// Surfaces, with what they are.
-const SURFACES: [(&str, &str); 4] = [
+const SURFACES: [(&str, &str); 8] = [
     ("plane", "the plane z = 0, tiled without end"),
     ("sphere", "the unit sphere, u along longitude and v along latitude"),
     ("drapery", "a coarse cloth that hangs in folds, u across them and v up"),
     ("wavy-sphere", "a sphere whose radius ripples, as a mesh of as many cells as asked for"),
+    ("teapot", "Newell's teapot of 32 Bézier patches, u around its parts and v along them"),
+    ("bent-patch", "a flat patch with one corner bent back, seen from both sides"),
+    ("cylinder", "the cylinder of radius 1 and height 2, without lids, u around and v up"),
+    ("ribbon", "a strip that waves, u along it and v up"),
 ];
 
 /// Prints experiments, methods, patterns, surfaces, environments and multiple surfaces.
@@ -118,6 +122,14 @@ fn parameters(list: &[Parameter]) -> Vec<Json> {
                 }
                 Domain::Choice { words } => {
                     json!({ "type": "choice", "default": words[0], "choices": words })
+                }
+                Domain::Text { default, .. } => json!({ "type": "text", "default": default }),
+                Domain::Rows { columns, default, most } => {
+                    let columns: Vec<Json> = columns
+                        .iter()
+                        .map(|c| json!({ "name": c.name, "min": c.min, "max": c.max, "whole": c.whole }))
+                        .collect();
+                    json!({ "type": "rows", "default": default, "columns": columns, "most": most })
                 }
             };
             json!({ "name": p.name, "meaning": p.meaning, "domain": domain })

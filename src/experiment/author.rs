@@ -9,8 +9,8 @@ use bevy_ecs::prelude::*;
 use placement::{Placement, placements, spawn_lights};
 
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, Pose, Reading as ReadingSpec, ReferenceSpec,
-    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, Pose, Reading as ReadingSpec,
+    ReferenceSpec, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
@@ -22,7 +22,10 @@ use crate::scene::{
     ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture,
     TiledBefore, Tiling, TrialOf,
 };
-use crate::surface::{MainDirection, Plane, Shape, Sphere, WavyFrame, WavySphere, drapery};
+use crate::surface::{
+    Cylinder, MainDirection, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame, WavySphere,
+    bent_patch, drapery, ribbon, teapot,
+};
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
 
@@ -222,7 +225,7 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
             pattern::file::read(path, &reading).map_err(|error| LoadError(error.to_string()))?
         }
     };
-    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    let heights = heights || spec.interpolation.spline().is_some();
     if heights && bumps.heights.is_none() {
         let Integrated { heights, residual } = integrate(&bumps.normals);
         bumps.notes.push(residual.to_string());
@@ -230,6 +233,18 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
     }
     if let Some(heights) = bumps.heights.take() {
         bumps.normals = bumps.normals.with_heights(Arc::new(heights));
+    }
+    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    if spec.repeat > 1 {
+        let longest = bumps.normals.width().max(bumps.normals.height());
+        if longest * spec.repeat > MAX_REPEATED {
+            let (name, most) = (&spec.name, MAX_REPEATED / longest);
+            return Err(LoadError(format!(
+                "texture {name} is {longest} texels long: `repeat` may be {most} at most",
+                most = most.max(1)
+            )));
+        }
+        bumps.normals = bumps.normals.replicated(spec.repeat);
     }
     Ok(bumps)
 }
@@ -253,11 +268,18 @@ fn shape(spec: &SurfaceSpec) -> Shape {
     let shape = match spec.shape {
         ShapeSpec::Plane => Shape::Plane(Plane::new()),
         ShapeSpec::Sphere => Shape::Sphere(Sphere::new()),
-        ShapeSpec::Drapery => Shape::Drapery(drapery()),
+        ShapeSpec::Drapery => Shape::Mesh(drapery()),
+        ShapeSpec::Teapot => Shape::Patches(teapot()),
+        ShapeSpec::BentPatch => Shape::Patches(bent_patch()),
+        ShapeSpec::Cylinder => Shape::Cylinder(Cylinder::new()),
+        ShapeSpec::Ribbon => Shape::Patches(ribbon()),
         ShapeSpec::WavySphere(wavy) => {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }
     };
+    if spec.perturbation != Perturbation::Tangent {
+        return Shape::Perturbed(Perturbed::new(shape, spec.perturbation));
+    }
     match spec.axes {
         AxesSpec::MainDirection(main) => {
             Shape::MainDirection(MainDirection::new(shape, main.into()))

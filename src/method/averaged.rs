@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::one_lobe::{OneLobe, OneLobeMap};
 use super::{Card, Entry, Method, PrefilterError, Prefiltered, Progress, Refusal};
 use crate::lobe::{BaseLobe, EllipticLobe};
-use crate::texture::{MIN_COSINE, Moments, NormalMap, Texel};
+use crate::texture::{Bend, MIN_COSINE, Moments, NormalMap, Texel};
 
 /// The base lobe about the normal of the averaged bump function.
 ///
@@ -25,6 +25,7 @@ const CARD: Card = Card {
     limits: "the roughness of the bumps it averages away is lost: highlights stay sharp",
     normalised: true,
     keeps_roughness: false,
+    fractal: false,
     precision: 1e-3,
 };
 
@@ -40,6 +41,10 @@ impl Method for Averaged {
 
     fn base_error(&self, _base: &BaseLobe) -> Result<f64, Refusal> {
         Ok(0.0)
+    }
+
+    fn bends(&self) -> bool {
+        true
     }
 
     fn prefilter(
@@ -71,5 +76,12 @@ impl OneLobe<3> for MeanSlope {
     fn lobe(&self, [w, x, y]: [f32; 3]) -> EllipticLobe {
         // (x/w, y/w, 1) without the division: only the direction matters.
         self.base.about([x, y, w], w)
+    }
+
+    /// Averages of slopes are stretched as slopes are.
+    #[inline(always)]
+    fn bent(&self, [w, x, y]: [f32; 3], bend: &Bend) -> [f32; 3] {
+        let [x, y, _] = bend.turn([x, y, w]);
+        [w, x, y]
     }
 }

@@ -33,6 +33,7 @@ const CARD: Card = Card {
     limits: "aliases: a pixel sees one normal of the many it covers",
     normalised: true,
     keeps_roughness: false,
+    fractal: false,
     precision: 1e-3,
 };
 
@@ -69,6 +70,10 @@ impl Method for Unfiltered {
         self.shadowed
     }
 
+    fn bends(&self) -> bool {
+        !self.shadowed
+    }
+
     fn prefilter(
         &self,
         map: &Arc<NormalMap>,
@@ -100,7 +105,7 @@ impl Prefiltered for UnfilteredMap {
 
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let mut surface = MultipleSurface::new();
-        surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0);
+        surface.add(unfiltered_lobe(&self.map, &self.base, at), 1.0);
         surface
     }
 
@@ -160,7 +165,7 @@ impl Prefiltered for ShadowedMap {
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let UnfilteredMap { map, base } = &self.unfiltered;
         let mut surface = MultipleSurface::new();
-        let lobe = unfiltered_lobe(map, base, at.u, at.v);
+        let lobe = unfiltered_lobe(map, base, at);
         surface.add_behind(lobe, 1.0, self.horizon(at.u, at.v), 1.0);
         surface
     }
@@ -210,6 +215,10 @@ impl<B: RoundLobe, const MICROFACET: bool, const REPEAT: bool> Kernel
         let Of { map, batch, radiance } = self.of;
         let mut normals = [[0.0; BATCH]; 4];
         map.sample_lanes::<BATCH, REPEAT>(&batch.u, &batch.v, &mut normals);
+        if let Some(bends) = &batch.bends {
+            let [x, y, z, _] = &mut normals;
+            bends.turn([x, y, z]);
+        }
         let [x, y, z, weight] = &normals;
         for i in 0..BATCH {
             let n = [x[i], y[i], z[i]];

@@ -3,7 +3,7 @@
 use crate::geometry::{Frame, Kernel, Vec3, vectorised};
 use crate::light::Light;
 use crate::lobe::Shading;
-use crate::method::{BATCH, Batch};
+use crate::method::{BATCH, Batch, Bends};
 use crate::surface::{Shape, Surface, displacement};
 use crate::texture::{Footprint, Lookup, Wrap};
 
@@ -43,7 +43,8 @@ impl View {
             hit.gradient.map(|g| held(g.dot(&moved)))
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
-        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup };
+        let bend = self.surface.bend(&hit).unwrap_or_default();
+        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup, bend };
         Some(Sight { footprint, frame: hit.frame, view: -ray.normalize() })
     }
 
@@ -70,6 +71,23 @@ impl View {
             (true, None) => points.fill::<true, false>(),
             (true, Some(_)) => points.fill::<true, true>(),
         }
+        batch.bends = self.bends(x, y, len);
+    }
+
+    /// What becomes of the map's slopes at image points; None where they are slopes on the surface. Only then are
+    /// the points traced once more.
+    fn bends(&self, x: &[f64; BATCH], y: &[f64; BATCH], len: usize) -> Option<Bends> {
+        let of = |i: usize| {
+            let (hit, _) = self.surface.trace(self.camera.origin(), self.camera.ray(x[i], y[i]));
+            self.surface.bend(&hit)
+        };
+        let keeps_angle = of(0)?.keeps_angle;
+        let mut bends = Bends { matrix: [[0.0; BATCH]; 4], keeps_angle };
+        for i in 0..len {
+            let matrix = of(i)?.matrix;
+            (0..4).for_each(|k| bends.matrix[k][i] = matrix[k]);
+        }
+        Some(bends)
     }
 }
 
@@ -97,9 +115,8 @@ impl Points<'_> {
         match &self.view.surface {
             Shape::Plane(plane) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*plane),
             Shape::Sphere(sphere) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(*sphere),
-            Shape::Drapery(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
-            Shape::WavySphere(mesh) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(mesh.clone()),
-            Shape::MainDirection(any) => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
+            // Those that search for their hits gain nothing by a loop of their own.
+            any => self.lit::<_, DIRECTIONS, FOOTPRINTS>(any.clone()),
         }
     }
 

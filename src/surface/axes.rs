@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_main_direction_turns_frames_and_nothing_else() {
-        let shapes = [Shape::Sphere(Sphere::new()), Shape::Drapery(drapery())];
+        let shapes = [Shape::Sphere(Sphere::new()), Shape::Mesh(drapery())];
         for shape in shapes {
             let main = Vec3::new(1.0, 0.2, 0.3);
             let turned = MainDirection::new(shape.clone(), main).tiled(3.0, 0.5);

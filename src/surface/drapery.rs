@@ -20,9 +20,9 @@ pub fn drapery() -> Mesh {
         let y = depth * libm::cos(8.0 * x + 0.5 * z + 0.9 * libm::sin(1.9 * x));
         Vec3::new(x, y, z)
     };
-    let index = |i: usize, j: usize| j * (across + 1) + i;
+    let index = |i: usize, j: usize| (j * (across + 1) + i) as u32;
     let cells = || (0..down).flat_map(move |j| (0..across).map(move |i| (i, j)));
-    let triangles: Vec<[usize; 3]> = cells()
+    let triangles: Vec<[u32; 3]> = cells()
         .flat_map(|(i, j)| {
             let [a, b, c, d] = [index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)];
             [[a, b, c], [a, c, d]]
@@ -40,7 +40,7 @@ pub fn drapery() -> Mesh {
         uv: [lengths[k % (across + 1)], position.z + HALF[1]],
     };
     let vertices: Vec<Vertex> = positions.iter().zip(&normals).enumerate().map(vertex).collect();
-    Mesh::new(&vertices, &triangles)
+    Mesh::new(vertices, &triangles)
 }
 
 /// Length along a line of points up to each of them.
@@ -54,9 +54,9 @@ fn lengths(line: &[Vec3]) -> Vec<f64> {
 }
 
 /// The mean normal of the triangles around each point, by area.
-fn smooth_normals(positions: &[Vec3], triangles: &[[usize; 3]]) -> Vec<Vec3> {
+fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = vec![Vec3::zeros(); positions.len()];
-    for &[a, b, c] in triangles {
+    for [a, b, c] in triangles.iter().map(|corners| corners.map(|corner| corner as usize)) {
         let cross = (positions[b] - positions[a]).cross(&(positions[c] - positions[a]));
         [a, b, c].into_iter().for_each(|corner| sums[corner] += cross);
     }

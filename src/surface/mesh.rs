@@ -2,11 +2,7 @@
 
 use std::sync::Arc;
 
-use bvh::aabb::{Aabb, Bounded};
-use bvh::bounding_hierarchy::BHShape;
-use bvh::bvh::Bvh;
-use bvh::ray::Ray;
-
+use super::facets::{Facet, Facets, Meeting};
 use super::{Hit, Surface};
 use crate::geometry::{Frame, Vec3};
 
@@ -34,8 +30,10 @@ pub struct Mesh {
 /// What all tilings of a mesh share.
 #[derive(Debug)]
 struct Shared {
-    triangles: Vec<Triangle>,
-    hierarchy: Bvh<f64, 3>,
+    vertices: Vec<Vertex>,
+    facets: Facets,
+    /// The vertices of each facet.
+    corners: Vec<[u32; 3]>,
 }
 
 impl PartialEq for Mesh {
@@ -45,124 +43,55 @@ impl PartialEq for Mesh {
     }
 }
 
-#[derive(Clone, Debug)]
-struct Triangle {
-    corners: [Vertex; 3],
-    /// Unit normal of its plane.
-    normal: Vec3,
-    /// How barycentric coordinates 1 and 2 grow over the plane.
-    growth: [Vec3; 2],
-    /// Its place in the hierarchy.
-    node: usize,
-}
-
-impl Triangle {
-    /// `None` if it has no area.
-    fn new(corners: [Vertex; 3]) -> Option<Self> {
-        let [a, b, c] = corners.map(|corner| corner.position);
-        let (e1, e2) = (b - a, c - a);
-        let cross = e1.cross(&e2);
-        let square = cross.norm_squared();
-        let normal = cross.try_normalize(0.0)?;
-        let growth = [e2.cross(&cross) / square, cross.cross(&e1) / square];
-        let finite = growth.iter().all(|g| g.iter().all(|x| x.is_finite()));
-        (square > 0.0 && finite).then_some(Self { corners, normal, growth, node: 0 })
-    }
-
-    /// Where a ray meets its plane within its sides: the distance along the ray and the barycentric
-    /// coordinates 1 and 2.
-    fn meet(&self, origin: Vec3, direction: Vec3) -> Option<(f64, [f64; 2])> {
-        // Neighbours overlap by a hair, so that no ray slips between them.
-        const SLACK: f64 = 1e-9;
-        let from = self.corners[0].position;
-        let t = (from - origin).dot(&self.normal) / direction.dot(&self.normal);
-        let within = origin + direction * t - from;
-        let [b, c] = self.growth.map(|g| g.dot(&within));
-        (t > 0.0 && t.is_finite() && b >= -SLACK && c >= -SLACK && b + c <= 1.0 + SLACK)
-            .then_some((t, [b, c]))
-    }
-
-    fn hit(&self, origin: Vec3, direction: Vec3, t: f64, [b, c]: [f64; 2], tiles: [f64; 2]) -> Hit {
-        let weights = [1.0 - b - c, b, c];
-        let blend = |f: &dyn Fn(&Vertex) -> f64| -> f64 {
-            self.corners.iter().zip(weights).map(|(corner, weight)| weight * f(corner)).sum()
-        };
-        let smooth =
-            Vec3::new(blend(&|v| v.normal.x), blend(&|v| v.normal.y), blend(&|v| v.normal.z));
-        let normal = smooth.try_normalize(1e-9).unwrap_or(self.normal);
-        let gradient = [0, 1].map(|axis| {
-            let [u0, u1, u2] = self.corners.map(|corner| corner.uv[axis]);
-            (self.growth[0] * (u1 - u0) + self.growth[1] * (u2 - u0)) * tiles[axis]
-        });
-        // East is where u grows; where it does not, any tangent will do.
-        let east = gradient[0] - normal * gradient[0].dot(&normal);
-        let frame = match east.try_normalize(1e-12) {
-            Some(tangent) => Frame { tangent, bitangent: normal.cross(&tangent), normal },
-            None => Frame::about(normal),
-        };
-        let uv = [0, 1].map(|axis| blend(&|v| v.uv[axis]) * tiles[axis]);
-        let point = origin + direction * t;
-        Hit { t, point, frame, plane: self.normal, uv, gradient }
-    }
-}
-
-impl Bounded<f64, 3> for Triangle {
-    /// A hair larger than the triangle: a ray along an axis that runs right in a side of its box would be
-    /// found to miss it.
-    fn aabb(&self) -> Aabb<f64, 3> {
-        let [a, b, c] = self.corners.map(|corner| corner.position);
-        let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
-        let hair = Vec3::repeat(1e-9 * low.amax().max(high.amax()) + 1e-30);
-        Aabb::with_bounds((low - hair).into(), (high + hair).into())
-    }
-}
-
-impl BHShape<f64, 3> for Triangle {
-    fn set_bh_node_index(&mut self, index: usize) {
-        self.node = index;
-    }
-
-    fn bh_node_index(&self) -> usize {
-        self.node
-    }
-}
-
 impl Mesh {
     /// A mesh of triangles, each three indices of vertices. Those without area, or of a vertex there is
     /// not, are left out. One tile a unit of its texture coordinates.
-    pub fn new(vertices: &[Vertex], triangles: &[[usize; 3]]) -> Self {
-        let triangle = |corners: &[usize; 3]| {
-            let [a, b, c] = corners.map(|index| vertices.get(index).copied());
-            Triangle::new([a?, b?, c?])
-        };
-        let mut triangles: Vec<Triangle> = triangles.iter().filter_map(triangle).collect();
-        let hierarchy = Bvh::build(&mut triangles);
-        Self { shared: Arc::new(Shared { triangles, hierarchy }), tiles: [1.0; 2] }
+    pub fn new(vertices: Vec<Vertex>, triangles: &[[u32; 3]]) -> Self {
+        let position = |index: u32| vertices.get(index as usize).map(|vertex| vertex.position);
+        let (facets, order) = Facets::new(triangles.len(), |k| {
+            let [a, b, c] = triangles[k].map(position);
+            Some([a?, b?, c?])
+        });
+        let corners = order.iter().map(|&k| triangles[k as usize]).collect();
+        Self { shared: Arc::new(Shared { vertices, facets, corners }), tiles: [1.0; 2] }
     }
 
     /// Triangles that have area.
     pub fn triangles(&self) -> usize {
-        self.shared.triangles.len()
+        self.shared.facets.len()
     }
+
+    /// Whether a triangle is met from its front, and what is there.
+    fn hit(&self, origin: Vec3, direction: Vec3, met: &Meeting) -> (Hit, bool) {
+        let facet = self.shared.facets.facet(met.facet);
+        let corners =
+            self.shared.corners[met.facet].map(|index| &self.shared.vertices[index as usize]);
+        let front = direction.dot(&facet.normal) < 0.0;
+        (hit(origin + direction * met.t, met, facet, corners, self.tiles), front)
+    }
+}
+
+fn hit(point: Vec3, met: &Meeting, facet: &Facet, corners: [&Vertex; 3], tiles: [f64; 2]) -> Hit {
+    let smooth = Vec3::from([0, 1, 2].map(|k| met.blend(corners.map(|corner| corner.normal[k]))));
+    let normal = smooth.try_normalize(1e-9).unwrap_or(facet.normal);
+    let gradient = [0, 1].map(|axis| {
+        let [u0, u1, u2] = corners.map(|corner| corner.uv[axis]);
+        (facet.growth[0] * (u1 - u0) + facet.growth[1] * (u2 - u0)) * tiles[axis]
+    });
+    // East is where u grows; where it does not, any tangent will do.
+    let east = gradient[0] - normal * gradient[0].dot(&normal);
+    let frame = match east.try_normalize(1e-12) {
+        Some(tangent) => Frame { tangent, bitangent: normal.cross(&tangent), normal },
+        None => Frame::about(normal),
+    };
+    let uv = [0, 1].map(|axis| met.blend(corners.map(|corner| corner.uv[axis])) * tiles[axis]);
+    Hit { t: met.t, point, frame, plane: facet.normal, uv, gradient }
 }
 
 impl Surface for Mesh {
     fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
-        let Shared { triangles, hierarchy } = &*self.shared;
-        let ray = Ray::new(origin.into(), direction);
-        let mut first: Option<(f64, [f64; 2], &Triangle)> = None;
-        for triangle in hierarchy.traverse_iterator(&ray, triangles) {
-            if let Some((t, at)) = triangle.meet(origin, direction)
-                && first.is_none_or(|(nearest, ..)| t < nearest)
-            {
-                first = Some((t, at, triangle));
-            }
-        }
-        match first {
-            Some((t, at, triangle)) => {
-                let front = direction.dot(&triangle.normal) < 0.0;
-                (triangle.hit(origin, direction, t, at, self.tiles), front)
-            }
+        match self.shared.facets.first(origin, direction) {
+            Some(met) => self.hit(origin, direction, &met),
             None => (Hit::nowhere(), false),
         }
     }
@@ -190,7 +119,7 @@ mod tests {
             uv: [x, y],
         };
         let vertices = [corner(-2.0, -2.0), corner(2.0, -2.0), corner(2.0, 2.0), corner(-2.0, 2.0)];
-        Mesh::new(&vertices, &[[0, 1, 2], [0, 2, 3]])
+        Mesh::new(vertices.to_vec(), &[[0, 1, 2], [0, 2, 3]])
     }
 
     proptest! {
@@ -224,7 +153,7 @@ mod tests {
     fn what_has_no_area_is_left_out() {
         let corner = Vertex { position: Vec3::x(), normal: Vec3::z(), uv: [0.0; 2] };
         let other = Vertex { position: Vec3::new(f64::NAN, 0.0, 0.0), ..corner };
-        let mesh = Mesh::new(&[corner, corner, other], &[[0, 1, 1], [0, 1, 2], [0, 1, 9]]);
+        let mesh = Mesh::new(vec![corner, corner, other], &[[0, 1, 1], [0, 1, 2], [0, 1, 9]]);
         assert_eq!(mesh.triangles(), 0);
         assert!(mesh.intersect(Vec3::z(), -Vec3::z()).is_none());
     }
@@ -242,15 +171,15 @@ mod tests {
         };
         let vertices: Vec<Vertex> =
             (0..=rings).flat_map(|ring| (0..=around).map(move |step| vertex(ring, step))).collect();
-        let at = |ring: usize, step: usize| ring * (around + 1) + step;
-        let triangles: Vec<[usize; 3]> = (0..rings)
+        let at = |ring: usize, step: usize| (ring * (around + 1) + step) as u32;
+        let triangles: Vec<[u32; 3]> = (0..rings)
             .flat_map(|r| (0..around).map(move |s| (r, s)))
             .flat_map(|(r, s)| {
                 let (a, b, c, d) = (at(r, s), at(r + 1, s), at(r + 1, s + 1), at(r, s + 1));
                 [[a, b, c], [a, c, d]]
             })
             .collect();
-        let mesh = Mesh::new(&vertices, &triangles);
+        let mesh = Mesh::new(vertices, &triangles);
         // The first and last ring have one triangle a step that is a point.
         assert_eq!(mesh.triangles(), 2 * around * (rings - 1));
         for i in 0..200 {

@@ -4,20 +4,31 @@
 //! the surface, and the tangent frame.
 
 mod axes;
+mod bezier;
+mod cylinder;
 mod drapery;
+mod facets;
+mod hierarchy;
 mod mesh;
+mod patches;
+mod perturbation;
 mod plane;
 mod sphere;
 mod wavy_sphere;
 
 pub use axes::{Axes, MainDirection, along_main_direction};
+pub use bezier::{Bezier, PatchPoint, Tangents};
+pub use cylinder::Cylinder;
 pub use drapery::drapery;
 pub use mesh::{Mesh, Vertex};
+pub use patches::{Chart, Charted, Patches, bent_patch, ribbon, teapot, teapot_mesh};
+pub use perturbation::{Derivatives, Perturbation, Perturbed};
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub use wavy_sphere::{WavyFrame, WavySphere};
 
 use crate::geometry::{Frame, Vec3};
+use crate::texture::Bend;
 
 /// A point of a surface that a ray hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,12 +85,18 @@ pub enum Shape {
     Plane(Plane),
     /// The sphere.
     Sphere(Sphere),
-    /// The hanging cloth.
-    Drapery(Mesh),
+    /// A cylinder.
+    Cylinder(Cylinder),
+    /// Triangles: the hanging cloth, the model of a file.
+    Mesh(Mesh),
+    /// Bézier patches: the teapot, the bent patch, the ribbon.
+    Patches(Patches),
     /// The rippled sphere.
     WavySphere(WavySphere),
     /// Any of these with a main direction for its bumps.
     MainDirection(MainDirection),
+    /// Any of these on which bumps are displacements, or as steep as them.
+    Perturbed(Perturbed),
 }
 
 /// Does the same with whichever surface a shape is.
@@ -88,25 +105,17 @@ macro_rules! with {
         match $shape {
             Shape::Plane($surface) => $does,
             Shape::Sphere($surface) => $does,
-            Shape::Drapery($surface) => $does,
+            Shape::Cylinder($surface) => $does,
+            Shape::Mesh($surface) => $does,
+            Shape::Patches($surface) => $does,
             Shape::WavySphere($surface) => $does,
             Shape::MainDirection($surface) => $does,
+            Shape::Perturbed($surface) => $does,
         }
     };
 }
 
 impl Shape {
-    /// Its name in specs and reports.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Plane(_) => "plane",
-            Self::Sphere(_) => "sphere",
-            Self::Drapery(_) => "drapery",
-            Self::WavySphere(_) => "wavy-sphere",
-            Self::MainDirection(turned) => turned.shape().name(),
-        }
-    }
-
     /// See [`Surface::trace`].
     pub fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
         with!(self, surface => surface.trace(origin, direction))
@@ -122,15 +131,41 @@ impl Shape {
         match self {
             Self::Plane(plane) => Self::Plane(plane.tiled(tiles, aspect)),
             Self::Sphere(sphere) => Self::Sphere(sphere.tiled(tiles, aspect)),
-            Self::Drapery(mesh) => Self::Drapery(mesh.tiled(tiles, aspect)),
+            Self::Cylinder(cylinder) => Self::Cylinder(cylinder.tiled(tiles, aspect)),
+            Self::Mesh(mesh) => Self::Mesh(mesh.tiled(tiles, aspect)),
+            Self::Patches(patches) => Self::Patches(patches.tiled(tiles, aspect)),
             Self::WavySphere(sphere) => Self::WavySphere(sphere.tiled(tiles, aspect)),
             Self::MainDirection(turned) => Self::MainDirection(turned.tiled(tiles, aspect)),
+            Self::Perturbed(perturbed) => Self::Perturbed(perturbed.tiled(tiles, aspect)),
+        }
+    }
+
+    /// What becomes of a map's slopes at a hit; None where they are slopes in its frame.
+    pub fn bend(&self, hit: &Hit) -> Option<Bend> {
+        match self {
+            Self::Perturbed(perturbed) => Some(perturbed.bend(hit)),
+            _ => None,
         }
     }
 
     /// See [`Surface::tiles_across`].
     pub fn tiles_across(&self) -> f64 {
         with!(self, surface => surface.tiles_across())
+    }
+}
+
+/// The same, for code that takes any surface.
+impl Surface for Shape {
+    fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
+        Shape::trace(self, origin, direction)
+    }
+
+    fn tiled(&self, tiles: f64, aspect: f64) -> Self {
+        Shape::tiled(self, tiles, aspect)
+    }
+
+    fn tiles_across(&self) -> f64 {
+        Shape::tiles_across(self)
     }
 }
 
@@ -150,55 +185,4 @@ pub fn displacement(direction: Vec3, d_direction: Vec3, t: f64, normal: Vec3) ->
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn surfaces() -> [Shape; 2] {
-        [Shape::Plane(Plane::new()), Shape::Sphere(Sphere::new())].map(|s| s.tiled(1.7, 0.5))
-    }
-
-    proptest! {
-        #[test]
-        fn differentials_match_finite_differences(
-            azimuth in 0.0f64..6.2, elevation in 0.3f64..1.4, aim in -0.4f64..0.4
-        ) {
-            let (s, c) = libm::sincos(elevation);
-            let (sa, ca) = libm::sincos(azimuth);
-            let origin = Vec3::new(c * ca, c * sa, s) * 4.0;
-            let direction = Vec3::new(aim, 0.2 * aim, 0.0) - origin;
-            let step = Vec3::new(0.3, -0.2, 0.1);
-            for surface in surfaces() {
-                let hit = surface.intersect(origin, direction).expect("aimed at the surface");
-                let moved = displacement(direction, step, hit.t, hit.frame.normal);
-                let h = 1e-6;
-                let near = surface.intersect(origin, direction + step * h).expect("still on it");
-                let exact = (near.point - hit.point) / h;
-                prop_assert!((moved - exact).norm() < 1e-4 * exact.norm().max(1.0));
-                for c in 0..2 {
-                    let d = (near.uv[c] - hit.uv[c]) / h;
-                    // The seam of a closed surface is a jump of whole tiles.
-                    if d.abs() < 1e3 {
-                        let linear = hit.gradient[c].dot(&moved);
-                        prop_assert!((linear - d).abs() < 1e-3 * d.abs().max(1.0), "{linear} {d}");
-                    }
-                }
-            }
-        }
-
-        #[test]
-        fn frames_are_right_handed_and_follow_u_and_v(x in -0.9f64..0.9, y in -0.9f64..0.9) {
-            for surface in surfaces() {
-                let origin = Vec3::new(x, y, 5.0);
-                if let Some(hit) = surface.intersect(origin, -Vec3::z()) {
-                    let frame = hit.frame;
-                    let made = frame.tangent.cross(&frame.bitangent);
-                    prop_assert!((made - frame.normal).norm() < 1e-12);
-                    prop_assert!(frame.normal.z > 0.0);
-                    prop_assert!(hit.gradient[0].dot(&frame.tangent) > 0.0);
-                    prop_assert!(hit.gradient[1].dot(&frame.bitangent) > 0.0);
-                }
-            }
-        }
-    }
-}
+mod tests;

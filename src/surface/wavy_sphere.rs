@@ -37,8 +37,8 @@ impl WavySphere {
             .flat_map(|j| (0..=across).map(move |i| (i, j)))
             .map(|(i, j)| vertex(ripples, [i, j], [across, down]))
             .collect();
-        let index = |i: usize, j: usize| j * (across + 1) + i;
-        let triangles: Vec<[usize; 3]> = (0..down)
+        let index = |i: usize, j: usize| (j * (across + 1) + i) as u32;
+        let triangles: Vec<[u32; 3]> = (0..down)
             .flat_map(|j| (0..across).map(move |i| (i, j)))
             .flat_map(|(i, j)| {
                 let [a, b, c, d] =
@@ -47,7 +47,7 @@ impl WavySphere {
                 if j == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
             })
             .collect();
-        Self { mesh: Mesh::new(&vertices, &triangles), frame, around: 1.0 }.tiled(2.0 / TAU, 1.0)
+        Self { mesh: Mesh::new(vertices, &triangles), frame, around: 1.0 }.tiled(2.0 / TAU, 1.0)
     }
 
     /// Triangles of its mesh.

@@ -43,14 +43,16 @@ pub use scene::{CameraSpec, ImageSpec};
 pub(crate) use suggest::no_such;
 pub use surface::{AxesSpec, Shape, SurfaceSpec, WavySphereSpec};
 pub use sweep::{Scale, SweepSpec};
-pub use texture::{Reading, TextureSource, TextureSpec};
+pub use texture::{MAX_REPEATED, Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
 use crate::method::Truth;
+use crate::surface::Perturbation;
 use catalogue::Catalogue;
 use log::Log;
 use material::Material;
 use reader::Reader;
+use suggest::all_of;
 use sweep::Context;
 
 /// An experiment: what to render, and what to hold it to. Every value is checked and every default
@@ -143,6 +145,25 @@ fn refuse(reader: &Reader, key: &'static str, message: &str) {
     }
 }
 
+/// Logs methods, and a truth, that take slopes only as they are in the map.
+fn check_bends(root: &Reader, sweep: &SweepSpec, truth: Truth) {
+    let unable = sweep.methods.iter().filter(|method| !method.build().bends());
+    let labels: Vec<String> = unable.map(|method| format!("\"{}\"", method.label)).collect();
+    if !labels.is_empty() {
+        let message = format!(
+            "{} cannot be used with this `perturbation`: what they spread of the map's slopes would have to be \
+             carried along at every point",
+            all_of(&labels)
+        );
+        let help = "methods that shade single normals can: \"unfiltered\" (without shadowing), \"averaged\"";
+        root.error(message, Some(help.to_owned()));
+    }
+    if truth != Truth::Bumps {
+        let message = format!("the truth \"{}\" takes slopes as they are in the map", truth.name());
+        root.error(message, Some("use \"bumps\" with this `perturbation`".to_owned()));
+    }
+}
+
 /// Reads everything; the spec means something only if nothing was logged.
 fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Spec {
     let name = name.to_owned();
@@ -201,6 +222,9 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         seed,
     };
     let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));
+    if surface.perturbation != Perturbation::Tangent {
+        check_bends(root, &sweep, reference.truth);
+    }
     Spec {
         name,
         title,

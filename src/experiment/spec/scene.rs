@@ -66,12 +66,11 @@ fn target(reader: &Reader, shape: Shape) -> [f64; 3] {
     let square = x * x + y * y + z * z;
     let message = match shape {
         Shape::Plane if z > 0.0 => format!("`target` is above the plane: z is {z}"),
-        Shape::Drapery | Shape::WavySphere(_) if square > 0.25 => {
-            "`target` is more than 0.5 from the origin".to_owned()
-        }
         Shape::Sphere if square >= 1.0 => {
             "`target` is not inside the sphere of radius 1".to_owned()
         }
+        Shape::Plane | Shape::Sphere => return [x, y, z],
+        _ if square > 0.25 => "`target` is more than 0.5 from the origin".to_owned(),
         _ => return [x, y, z],
     };
     item.error(message, Some("the middle of the image must show the surface".to_owned()));
@@ -83,6 +82,6 @@ pub(super) fn distance_limits(shape: Shape) -> Limits {
     match shape {
         Shape::Plane => Limits::above(0.0, 1e6),
         Shape::Sphere => Limits::above(1.0, 1e6),
-        Shape::Drapery | Shape::WavySphere(_) => Limits::above(2.0, 1e6),
+        _ => Limits::above(2.0, 1e6),
     }
 }

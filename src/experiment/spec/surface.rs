@@ -4,6 +4,7 @@ use super::item::Item;
 use super::limits::Limits;
 use super::reader::Reader;
 use crate::geometry::Ripples;
+use crate::surface::Perturbation;
 
 /// A surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,8 @@ pub struct SurfaceSpec {
     pub shape: Shape,
     /// What its bumps stand in.
     pub axes: AxesSpec,
+    /// What slopes of its bumps are.
+    pub perturbation: Perturbation,
 }
 
 /// The form of a surface.
@@ -25,6 +28,14 @@ pub enum Shape {
     Drapery,
     /// A sphere about the origin whose radius ripples, as a mesh.
     WavySphere(WavySphereSpec),
+    /// The teapot.
+    Teapot,
+    /// A flat patch with one corner bent back.
+    BentPatch,
+    /// The cylinder of radius 1 about z, 2 high.
+    Cylinder,
+    /// A strip that waves and faces −y.
+    Ribbon,
 }
 
 /// A rippled sphere.
@@ -72,6 +83,10 @@ impl Shape {
             Self::Sphere => "sphere",
             Self::Drapery => "drapery",
             Self::WavySphere(_) => "wavy-sphere",
+            Self::Teapot => "teapot",
+            Self::BentPatch => "bent-patch",
+            Self::Cylinder => "cylinder",
+            Self::Ribbon => "ribbon",
         }
     }
 }
@@ -91,6 +106,10 @@ impl SurfaceSpec {
             ("sphere", Word::Of(Shape::Sphere)),
             ("drapery", Word::Of(Shape::Drapery)),
             ("wavy-sphere", Word::WavySphere),
+            ("teapot", Word::Of(Shape::Teapot)),
+            ("bent-patch", Word::Of(Shape::BentPatch)),
+            ("cylinder", Word::Of(Shape::Cylinder)),
+            ("ribbon", Word::Of(Shape::Ribbon)),
         ];
         let shape = match reader.choice("shape", &shapes) {
             Word::Of(shape) => shape,
@@ -99,7 +118,38 @@ impl SurfaceSpec {
         let tiles = reader.item("tiles");
         let limits = Limits::above(0.0, 1e6);
         let tiles = tiles.and_then(|t| Some((t.clone(), t.real(limits)?)));
-        (Self { shape, axes: AxesSpec::read(reader, shape) }, tiles)
+        let axes = AxesSpec::read(reader, shape);
+        (Self { shape, axes, perturbation: read_perturbation(reader, axes) }, tiles)
+    }
+}
+
+/// What slopes are; displacements stand in ∇u and ∇v, and no other axes.
+fn read_perturbation(reader: &Reader, axes: AxesSpec) -> Perturbation {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Form {
+        Tangent,
+        Displacement,
+        ScaleInvariant,
+    }
+    let words = [
+        ("tangent", Form::Tangent),
+        ("displacement", Form::Displacement),
+        ("scale-invariant", Form::ScaleInvariant),
+    ];
+    let form = reader.choice("perturbation", &words);
+    if form != Form::Tangent
+        && axes != AxesSpec::Natural
+        && let Some(item) = reader.item("perturbation")
+    {
+        let message = "displacements stand along u and v: a `frame` would change nothing";
+        item.error(message.to_owned(), Some("leave out one of the two".to_owned()));
+    }
+    match form {
+        Form::Tangent => Perturbation::Tangent,
+        Form::Displacement => Perturbation::Displacement {
+            unit: reader.real("height_unit", 1.0, Limits::above(0.0, 1e6)),
+        },
+        Form::ScaleInvariant => Perturbation::ScaleInvariant,
     }
 }
 

@@ -9,6 +9,7 @@ use super::*;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
 use crate::pattern::{self, Bumps};
+use crate::surface::Perturbation;
 use crate::texture::{Interpolation, NormalMap, Wrap};
 
 /// A pattern `ribs` with one option of each kind, and the program's methods.
@@ -52,7 +53,8 @@ fn everything_but_textures_and_methods_has_a_default() {
     let spec = parse(SMALLEST).unwrap();
     assert_eq!((spec.name.as_str(), spec.title.as_str(), spec.seed), ("ribbed", "ribbed", 1));
     assert_eq!(spec.image, ImageSpec { width: 160, height: 120 });
-    let plane = SurfaceSpec { shape: Shape::Plane, axes: AxesSpec::Natural };
+    let (axes, perturbation) = (AxesSpec::Natural, Perturbation::Tangent);
+    let plane = SurfaceSpec { shape: Shape::Plane, axes, perturbation };
     assert_eq!(spec.surface, plane);
     let target = [0.0; 3];
     let camera = CameraSpec { elevation: 40.0, azimuth: -90.0, fov: 25.0, distance: 4.0, target };
