@@ -128,7 +128,7 @@ impl UnfilteredMap {
         for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
             *out = 0.0;
             if batch.irradiance[i] > 0.0 {
-                let lobe = unfiltered_lobe(&self.map, &self.base, batch.u[i], batch.v[i]);
+                let lobe = unfiltered_lobe(&self.map, &self.base, &batch.footprint(i));
                 let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
                 *out = batch.irradiance[i] * lobe.radiance(shading, half, light, view);
             }

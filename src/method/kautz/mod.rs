@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use super::{Batch, Lane};
 use crate::lobe::sampled::{facet, in_frame};
-use crate::lobe::{MultipleSurface, NdfImage, SampledLobe, Shading};
+use crate::lobe::{MultipleSurface, NdfImage, SampledLobe, Shading, Spread};
 use crate::synthesis::MicroFrame;
 
 /// What every form shades by: the NDF, and its slope covariance for shadowing and masking.
@@ -51,6 +51,12 @@ impl OwnNdf {
             Shading::Microfacet => {
                 density * facet(*frame, self.spread).geometry(batch.light(i), batch.view(i))
             }
+            _ => SampledLobe::new(Arc::clone(&self.image), *frame, 1.0, self.spread).radiance(
+                shading,
+                batch.half(i),
+                batch.light(i),
+                batch.view(i),
+            ),
         }
     }
 
