@@ -36,8 +36,7 @@ pub(super) fn kindle(
     current: Res<Current>,
     scenes: Query<&SceneOf>,
     origins: Query<&LightOrigin, Without<LightSource>>,
-    moved: Query<&MovedLight, Without<LightSource>>,
-    sources: Query<&LightSource>,
+    (moved, sources): (Query<&MovedLight, Without<LightSource>>, Query<&LightSource>),
     mut failure: ResMut<Failure>,
     mut progress: MessageWriter<Progress>,
 ) {
