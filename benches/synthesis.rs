@@ -65,13 +65,17 @@ fn tables(bencher: Bencher) {
 fn baked(bencher: Bencher, side: usize) {
     let synthesis = synthesis();
     let octaves = octaves_for([side; 2], CELLS);
-    bencher
-        .counter(ItemsCount::new(side * side))
-        .bench(|| synthesis.bake(side, side, octaves));
+    bencher.counter(ItemsCount::new(side * side)).bench(|| synthesis.bake(side, side, octaves));
 }
 
-const WAYS: [&str; 6] =
-    ["no texture", "bumps", "averaged", "kautz, of a map", "kautz, single pass", "kautz, turbulence"];
+const WAYS: [&str; 6] = [
+    "no texture",
+    "bumps",
+    "averaged",
+    "kautz, of a map",
+    "kautz, single pass",
+    "kautz, turbulence",
+];
 
 fn way(name: &str) -> Box<dyn Prefiltered> {
     let synthesis = synthesis();
