@@ -87,17 +87,17 @@ impl Scene {
     pub fn ribbon(aspect: f64, [width, height]: [usize; 2]) -> Self {
         Self {
             shape: Shape::Patches(ribbon().tiled(aspect / RIBBON, aspect)),
-            camera: Camera::orbiting(5.0, 8.0, -90.0, 13.0, width, height),
-            light: direction(35.0, -120.0),
+            camera: Camera::orbiting(5.0, 8.0, -90.0, 11.0, width, height),
+            light: direction(40.0, -95.0),
             exponent: 8.0,
         }
     }
 
     /// The sphere, with `tiles` square tables around its equator.
-    pub fn ball(tiles: f64, side: usize) -> Self {
+    pub fn ball(tiles: f64, [width, height]: [usize; 2]) -> Self {
         Self {
             shape: Shape::Sphere(Sphere::new().tiled(tiles / std::f64::consts::TAU, 1.0)),
-            camera: Camera::orbiting(5.0, 20.0, -90.0, 25.0, side, side),
+            camera: Camera::orbiting(5.0, 20.0, -90.0, 25.0, width, height),
             light: direction(45.0, -140.0),
             exponent: 8.0,
         }

@@ -85,14 +85,20 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         let film = Scene::plane(60.0, [300, 260]).picture(map, task)?;
         panels.push(Panel::new(name, label, film));
     }
-    let ball = Scene::ball(4.0, 260).picture(&many, task)?;
+    let ball = Scene::ball(4.0, [300, 260]).picture(&many, task)?;
     panels.push(Panel::new("ball", "rivets on a sphere", ball));
     let date = [("text", Value::Text("AUGUST 1978".into())), ("tilt", Value::Number(20.0))];
     let date = oblong("round-letters", [512, 128], &date, task.seed);
     let film = Scene::ribbon(0.25, [480, 150]).picture(&date, task)?;
-    panels.push(Panel::new("ribbon", "a date on a ribbon", film));
-    let drawing = Drawing::Images(side_by_side(panels, 3));
-    exhibit.figures.push(Figure::new("patch", "The tables on a patch.", drawing));
+    let drawing = Drawing::Images(side_by_side(panels, 2));
+    exhibit.figures.push(Figure::new("patch", "The tables on a patch, and on a sphere.", drawing));
+    let ribbon = vec![Panel::new("ribbon", "a date on a ribbon", film)];
+    let drawing = Drawing::Images(side_by_side(ribbon, 1));
+    exhibit.figures.push(Figure::new(
+        "ribbon",
+        "As on the ribbon of the proceedings' cover.",
+        drawing,
+    ));
     Ok(exhibit)
 }
 

@@ -29,7 +29,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         exhibit.claims.extend(claims(name, &staged.map, heights));
         let film = Scene::plane(60.0, [300, 260]).picture(&staged.map, task)?;
         panels.push(Panel::new(name, format!("{name} on a patch"), film));
-        let ball = Scene::ball(4.0, 260).picture(&staged.map, task)?;
+        let ball = Scene::ball(4.0, [300, 260]).picture(&staged.map, task)?;
         panels.push(Panel::new(&format!("{name}-ball"), format!("{name} on a sphere"), ball));
     }
     exhibit.claims.push(Claim::not_applicable(
