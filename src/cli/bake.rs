@@ -18,14 +18,21 @@ use crate::texture::image_file::{
 
 /// Pixels a side of NDFs that are made here.
 const SIDE: usize = 256;
+/// Most texels of a map: as many as are read from one.
+const MOST_TEXELS: usize = 1 << 26;
 /// Squares a side in which baked normals are held against their NDF.
 const SQUARES: usize = 32;
 
 /// Bakes the map asked for and writes it.
 pub(super) fn bake(args: &BakeArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
     let png = output::ending(&args.out, &["png", "exr"])? == "png";
-    let ndf = ndf(args)?;
     let (width, height) = args.size;
+    if width * height > MOST_TEXELS {
+        let message =
+            format!("{width}x{height} texels are more than the {MOST_TEXELS} that maps may have");
+        return Err(Failure::wrong(message));
+    }
+    let ndf = ndf(args)?;
     let cells = square_cells([width, height], args.cells);
     let most = octaves_for([width, height], cells);
     let octaves = args.octaves.map_or(most, f64::from);

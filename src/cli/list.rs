@@ -13,7 +13,7 @@ use crate::parameter::{Card, Domain, Parameter};
 use crate::{lobe, method, pattern};
 
 /// Surfaces, with what they are.
-const SURFACES: [(&str, &str); 8] = [
+const SURFACES: [(&str, &str); 9] = [
     ("plane", "the plane z = 0, tiled without end"),
     ("sphere", "the unit sphere, u along longitude and v along latitude"),
     ("drapery", "a coarse cloth that hangs in folds, u across them and v up"),
@@ -22,6 +22,7 @@ const SURFACES: [(&str, &str); 8] = [
     ("bent-patch", "a flat patch with one corner bent back, seen from both sides"),
     ("cylinder", "the cylinder of radius 1 and height 2, without lids, u around and v up"),
     ("ribbon", "a strip that waves, u along it and v up"),
+    ("mesh", "the triangles of an OBJ, glTF or GLB file, with its texture coordinates"),
 ];
 
 /// Prints experiments, methods, patterns, surfaces, environments and multiple surfaces.

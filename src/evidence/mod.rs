@@ -11,6 +11,7 @@ mod exhibit;
 mod figure;
 mod fournier_1992;
 mod gather;
+mod kautz_2001;
 mod olano_north_1997;
 mod paper;
 mod schilling_1997;

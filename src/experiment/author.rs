@@ -9,7 +9,7 @@ use bevy_ecs::prelude::*;
 use placement::{Placement, placements, spawn_lights};
 
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, Pose, Reading as ReadingSpec,
+    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, ModelSpec, Pose, Reading as ReadingSpec,
     ReferenceSpec, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
@@ -19,12 +19,12 @@ use crate::pattern::{self, Bumps};
 use crate::render::direction;
 use crate::scene::{
     BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
-    ProbePlan, ReferencePlan, SameAs, SceneOf, Spp, Stagehand, Strategy, SurfaceShape, Texture,
-    TiledBefore, Tiling, TrialOf,
+    ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy, SurfaceOrigin,
+    SurfaceShape, Texture, TiledBefore, Tiling, TrialOf,
 };
 use crate::surface::{
-    Cylinder, MainDirection, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame, WavySphere,
-    bent_patch, drapery, ribbon, teapot,
+    Cylinder, MainDirection, Mesh, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame,
+    WavySphere, bent_patch, drapery, read_model, ribbon, teapot,
 };
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
@@ -114,7 +114,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .iter()
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
-    let surface = world.spawn(SurfaceShape(shape(&spec.surface))).id();
+    let surface = spawn_surface(world, &spec.surface);
     let lights = spawn_lights(world, spec);
     let placements = placements(world, spec, &lights);
 
@@ -260,6 +260,19 @@ fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
     }
 }
 
+fn spawn_surface(world: &mut World, spec: &SurfaceSpec) -> Entity {
+    let Some(ModelSpec { path, up }) = spec.model.clone() else {
+        return world.spawn(SurfaceShape(shape(spec))).id();
+    };
+    let (axes, perturbation) = (spec.axes, spec.perturbation);
+    let origin = SurfaceOrigin(Box::new(move || {
+        let model = read_model(&path, up).map_err(|error| LoadError(error.to_string()))?;
+        Ok(Shaped { shape: along(axes, perturbation, Shape::Mesh(model.mesh)), notes: model.notes })
+    }));
+    world.spawn(origin).id()
+}
+
+/// A surface that the program makes itself.
 fn shape(spec: &SurfaceSpec) -> Shape {
     let frame = match spec.axes {
         AxesSpec::Sphere => WavyFrame::Sphere,
@@ -273,14 +286,21 @@ fn shape(spec: &SurfaceSpec) -> Shape {
         ShapeSpec::BentPatch => Shape::Patches(bent_patch()),
         ShapeSpec::Cylinder => Shape::Cylinder(Cylinder::new()),
         ShapeSpec::Ribbon => Shape::Patches(ribbon()),
+        // Nothing, if its file is not told; the spec sees to it that it is.
+        ShapeSpec::Mesh => Shape::Mesh(Mesh::new(Vec::new(), &[])),
         ShapeSpec::WavySphere(wavy) => {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }
     };
-    if spec.perturbation != Perturbation::Tangent {
-        return Shape::Perturbed(Perturbed::new(shape, spec.perturbation));
+    along(spec.axes, spec.perturbation, shape)
+}
+
+/// The surface with bumps along these axes, as steep as that form makes them.
+fn along(axes: AxesSpec, perturbation: Perturbation, shape: Shape) -> Shape {
+    if perturbation != Perturbation::Tangent {
+        return Shape::Perturbed(Perturbed::new(shape, perturbation));
     }
-    match spec.axes {
+    match axes {
         AxesSpec::MainDirection(main) => {
             Shape::MainDirection(MainDirection::new(shape, main.into()))
         }

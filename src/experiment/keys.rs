@@ -4,7 +4,8 @@
 //! into its digest (see [`super::store`]).
 
 use super::author::{PlannedScene, PlannedTrial};
-use super::spec::{EnvironmentSource, LightSpec, Spec, TextureSource, TextureSpec};
+use super::spec::{EnvironmentSource, LightSpec, Spec, SurfaceSpec, TextureSource, TextureSpec};
+use crate::surface::files_of;
 
 /// Name of a scene's reference among its records.
 pub(super) const REFERENCE: &str = "reference";
@@ -14,15 +15,24 @@ pub(super) const PROBES: &str = "probes";
 /// What is common to all scenes of an experiment.
 pub(super) fn common(spec: &Spec) -> String {
     format!(
-        "{:?} {:?} {:?} {} {:?} {:?} {}",
+        "{:?} {} {:?} {} {:?} {:?} {}",
         spec.image,
-        spec.surface,
+        surface(&spec.surface),
         spec.camera,
         light(&spec.light),
         spec.shading,
         spec.reference,
         spec.seed
     )
+}
+
+/// A surface, with the bytes of its model's files if it is one; see [`texture`].
+fn surface(surface: &SurfaceSpec) -> String {
+    let mut hasher = blake3::Hasher::new();
+    for file in surface.model.iter().flat_map(|model| files_of(&model.path)) {
+        hasher.update(&std::fs::read(file).unwrap_or_default());
+    }
+    format!("{surface:?} {}", hasher.finalize().to_hex())
 }
 
 /// A light, with the bytes of its file if it has one; see [`texture`].

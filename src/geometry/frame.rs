@@ -2,7 +2,9 @@
 
 use super::Vec3;
 
-/// A right-handed orthonormal frame: `tangent × bitangent = normal`.
+/// An orthonormal frame, right-handed (`tangent × bitangent = normal`) but for where a surface mirrors its texture
+/// coordinates or is seen from behind: there its bitangent is turned about, and still on the side of growing v, or
+/// all three are.
 ///
 /// On a surface the tangent follows increasing u, the bitangent completes the frame on the side of
 /// increasing v, and the normal points out. A vector's coordinates in it are (x, y, z) along

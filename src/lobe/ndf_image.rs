@@ -3,8 +3,9 @@
 use super::vector::Sym2;
 use super::{BaseLobe, MultipleSurface};
 
-/// Slopes are held where z is below this: a normal at the horizon has none.
-const LEAST_COSINE: f64 = 1.0 / 64.0;
+/// Slopes count as 4 (76°) where z is below a quarter: a normal at the horizon has none, and a tail as GGX's would have
+/// no variance.
+const LEAST_COSINE: f64 = 0.25;
 
 /// A distribution of normals as a square image over [−1, 1]², whose axes are the x and y of unit normals in tangent
 /// space: "directly using the x- and y-component of the normals" (§4).
@@ -239,7 +240,8 @@ impl NdfImage {
         low + fy * (lerp(k + self.side) - low)
     }
 
-    /// Covariance of the slopes (x/z, y/z) of its normals about z, steep ones held to 64, as [xx, xy, yy].
+    /// Covariance of the slopes (x/z, y/z) of its normals about z, steep ones held to about 4, as
+    /// [xx, xy, yy].
     pub fn slope_covariance(&self) -> Sym2 {
         let mut sums = [0.0f64; 6];
         for (k, &density) in self.density.iter().enumerate() {
@@ -396,7 +398,7 @@ mod tests {
             assert!((got - want).abs() < 3e-3 * BASE.density(0.0), "{x} {y}: {got} {want}");
         }
         let [xx, xy, yy] = image.slope_covariance();
-        // Slopes held to 64 hide next to nothing at exponent 20: variance 1/20.
+        // Holding slopes to 4 hides next to nothing at exponent 20: variance 1/20.
         assert!((xx - 0.05).abs() < 1e-3 && (yy - xx).abs() < 1e-5 && xy.abs() < 1e-6);
         assert!((image.mean_normal()[2] - 22.0 / 23.0).abs() < 1e-3);
     }

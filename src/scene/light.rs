@@ -31,13 +31,12 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 }
 
 /// Makes the current scene's light if it is not there yet, or the one that it is, moved.
-fn kindle(
+pub(super) fn kindle(
     mut commands: Commands,
     current: Res<Current>,
     scenes: Query<&SceneOf>,
     origins: Query<&LightOrigin, Without<LightSource>>,
-    moved: Query<&MovedLight, Without<LightSource>>,
-    sources: Query<&LightSource>,
+    (moved, sources): (Query<&MovedLight, Without<LightSource>>, Query<&LightSource>),
     mut failure: ResMut<Failure>,
     mut progress: MessageWriter<Progress>,
 ) {

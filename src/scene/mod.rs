@@ -15,6 +15,7 @@ mod measure;
 mod prefilter;
 mod reference;
 mod shelf;
+mod surface;
 mod texture;
 mod trial;
 
@@ -23,6 +24,7 @@ pub use measure::{Probe, ProbedMethod, Probes, Scores};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
 pub use shelf::Shelf;
+pub use surface::{Shaped, SurfaceOrigin};
 pub use texture::{BumpSource, LoadError, Map, Texture};
 pub use trial::{Exposure, Spp, StagedScene, TrialOf, stage};
 
@@ -171,6 +173,11 @@ pub enum Progress {
         /// The light.
         light: Entity,
     },
+    /// A surface was made ready.
+    Shaped {
+        /// The surface.
+        surface: Entity,
+    },
     /// A map was prefiltered, or a strategy refused its base lobe.
     Prefiltered {
         /// The prefilter.
@@ -238,6 +245,7 @@ impl Stagehand {
         for plugin in [
             texture::plugin,
             light::plugin,
+            surface::plugin,
             prefilter::plugin,
             reference::plugin,
             trial::plugin,

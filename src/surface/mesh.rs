@@ -17,6 +17,16 @@ pub struct Vertex {
     pub uv: [f64; 2],
 }
 
+/// What a triangle of a model has at a corner beside its vertex: its own tangent, for texture coordinates may break
+/// between triangles that share a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Corner {
+    /// Direction of growing u, unit length, world space; zero if there is none.
+    pub tangent: [f32; 3],
+    /// Whether v grows to the other side of it than on a map.
+    pub mirrored: bool,
+}
+
 /// Triangles with texture coordinates and smooth normals, in a bounding volume hierarchy. Only its front
 /// sides, whose corners run counter-clockwise, are seen; back sides hide what is behind them and send no
 /// light.
@@ -34,6 +44,8 @@ struct Shared {
     facets: Facets,
     /// The vertices of each facet.
     corners: Vec<[u32; 3]>,
+    /// The tangents of each facet's corners; empty if frames follow ∇u. Then it is a model, which has whole tiles.
+    tangents: Vec<[Corner; 3]>,
 }
 
 impl PartialEq for Mesh {
@@ -47,13 +59,30 @@ impl Mesh {
     /// A mesh of triangles, each three indices of vertices. Those without area, or of a vertex there is
     /// not, are left out. One tile a unit of its texture coordinates.
     pub fn new(vertices: Vec<Vertex>, triangles: &[[u32; 3]]) -> Self {
+        Self::framed(vertices, triangles, &[])
+    }
+
+    /// A mesh whose frames follow the tangents of the triangles' corners, interpolated and held perpendicular to the
+    /// normal; the bitangent is n × t, or where texture coordinates are mirrored −n × t, so that it is on the side
+    /// of growing v and a bump of the map is a bump there, too. Its tiles are whole and square in texture
+    /// coordinates, so that seams close: one unit of either holds as many.
+    pub(super) fn framed(
+        vertices: Vec<Vertex>,
+        triangles: &[[u32; 3]],
+        tangents: &[[Corner; 3]],
+    ) -> Self {
         let position = |index: u32| vertices.get(index as usize).map(|vertex| vertex.position);
         let (facets, order) = Facets::new(triangles.len(), |k| {
             let [a, b, c] = triangles[k].map(position);
             Some([a?, b?, c?])
         });
         let corners = order.iter().map(|&k| triangles[k as usize]).collect();
-        Self { shared: Arc::new(Shared { vertices, facets, corners }), tiles: [1.0; 2] }
+        let tangents = match tangents {
+            [] => Vec::new(),
+            _ => order.iter().map(|&k| tangents[k as usize]).collect(),
+        };
+        let shared = Arc::new(Shared { vertices, facets, corners, tangents });
+        Self { shared, tiles: [1.0; 2] }
     }
 
     /// Triangles that have area.
@@ -67,8 +96,23 @@ impl Mesh {
         let corners =
             self.shared.corners[met.facet].map(|index| &self.shared.vertices[index as usize]);
         let front = direction.dot(&facet.normal) < 0.0;
-        (hit(origin + direction * met.t, met, facet, corners, self.tiles), front)
+        let mut hit = hit(origin + direction * met.t, met, facet, corners, self.tiles);
+        if let Some(corners) = self.shared.tangents.get(met.facet) {
+            hit.frame = framed(hit.frame, met, corners);
+        }
+        (hit, front)
     }
+}
+
+/// The frame with the tangents of the corners, interpolated; as it is where they come to nothing.
+fn framed(frame: Frame, met: &Meeting, corners: &[Corner; 3]) -> Frame {
+    let tangent = [0, 1, 2].map(|k| met.blend(corners.map(|c| f64::from(c.tangent[k]))));
+    let (normal, tangent) = (frame.normal, Vec3::from(tangent));
+    let flat = tangent - normal * normal.dot(&tangent);
+    let Some(tangent) = flat.try_normalize(1e-6) else { return frame };
+    // All three corners agree: where u and v mirror, triangles share no tangents.
+    let side = if corners[0].mirrored { -1.0 } else { 1.0 };
+    Frame { tangent, bitangent: normal.cross(&tangent) * side, normal }
 }
 
 fn hit(point: Vec3, met: &Meeting, facet: &Facet, corners: [&Vertex; 3], tiles: [f64; 2]) -> Hit {
@@ -97,7 +141,12 @@ impl Surface for Mesh {
     }
 
     fn tiled(&self, tiles: f64, aspect: f64) -> Self {
-        Self { shared: Arc::clone(&self.shared), tiles: [tiles, tiles / aspect] }
+        let tiles = if self.shared.tangents.is_empty() {
+            [tiles, tiles / aspect]
+        } else {
+            [tiles.round().max(1.0); 2]
+        };
+        Self { shared: Arc::clone(&self.shared), tiles }
     }
 
     fn tiles_across(&self) -> f64 {

@@ -178,8 +178,7 @@ mod tests {
                 }),
             ] {
                 let [x, y, z] = form.bend(&hit, aspect).turn([-f[0] as f32, -f[1] as f32, 1.0]);
-                let [x, y, z] = [x, y, z].map(f64::from);
-                let got = (frame.tangent * x + frame.bitangent * y + frame.normal * z).normalize();
+                let got = (frame.tangent * f64::from(x) + frame.bitangent * f64::from(y) + frame.normal * f64::from(z)).normalize();
                 prop_assert!((got - want.normalize()).norm() < 1e-4, "{form:?} {got} {want}");
             }
         }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Normals, Synthesis};
-use crate::texture::{Footprint, Levels, Lookup, NormalMap, Wrap, level_sizes};
+use crate::texture::{Footprint, Levels, NormalMap, Wrap, level_sizes};
 
 /// What an index is stored in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,8 +86,7 @@ impl IndexTexture {
 
     /// The pair at folded coordinates, bilinear in the finest level.
     pub fn at(&self, u: f32, v: f32) -> [f32; 2] {
-        let lookup = Lookup::Trilinear;
-        self.fetch(&Footprint { u, v, lookup, ..Footprint::default() })
+        self.fetch(&Footprint { u, v, ..Footprint::default() })
     }
 
     /// The pairs of a level, row by row from v = 0; of no level beyond the coarsest.

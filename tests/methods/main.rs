@@ -14,3 +14,4 @@ mod lookup;
 mod magnified;
 mod rotation;
 mod soundness;
+mod surfaces;

@@ -59,7 +59,10 @@ impl Run<'_> {
     /// Keeps a piece of work that a tick has done.
     pub(super) fn keep(&mut self, scene: &PlannedScene, piece: &Progress) -> Result<(), RunError> {
         match *piece {
-            Progress::Loaded { .. } | Progress::Lit { .. } | Progress::Rendered { .. } => {}
+            Progress::Loaded { .. }
+            | Progress::Lit { .. }
+            | Progress::Shaped { .. }
+            | Progress::Rendered { .. } => {}
             Progress::Prefiltered { prefilter } => self.keep_prefilter(scene, prefilter, false)?,
             Progress::Reloaded { prefilter } => self.keep_prefilter(scene, prefilter, true)?,
             Progress::Noted { ref text } => (self.watch)(RunEvent::Noted { text: text.clone() }),

@@ -41,7 +41,7 @@ pub use paper::{Experiment, PaperKeys, PaperSpec, RowKeys, RowSpec};
 pub use reference::ReferenceSpec;
 pub use scene::{CameraSpec, ImageSpec};
 pub(crate) use suggest::no_such;
-pub use surface::{AxesSpec, Shape, SurfaceSpec, WavySphereSpec};
+pub use surface::{AxesSpec, ModelSpec, Shape, SurfaceSpec, WavySphereSpec};
 pub use sweep::{Scale, SweepSpec};
 pub use texture::{MAX_REPEATED, Reading, TextureSource, TextureSpec};
 

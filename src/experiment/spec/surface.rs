@@ -1,13 +1,16 @@
 //! The surface that carries the bumps, and the axes they stand in.
 
+use std::path::PathBuf;
+
 use super::item::Item;
 use super::limits::Limits;
 use super::reader::Reader;
+use super::texture::folder;
 use crate::geometry::Ripples;
-use crate::surface::Perturbation;
+use crate::surface::{Perturbation, Up};
 
 /// A surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceSpec {
     /// What it is.
     pub shape: Shape,
@@ -15,6 +18,17 @@ pub struct SurfaceSpec {
     pub axes: AxesSpec,
     /// What slopes of its bumps are.
     pub perturbation: Perturbation,
+    /// The file of a mesh; of no other shape.
+    pub model: Option<ModelSpec>,
+}
+
+/// A model in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelSpec {
+    /// Where it is: the spec's folder joined with the path as the spec has it.
+    pub path: PathBuf,
+    /// Which of its axes points up.
+    pub up: Up,
 }
 
 /// The form of a surface.
@@ -36,6 +50,8 @@ pub enum Shape {
     Cylinder,
     /// A strip that waves and faces −y.
     Ribbon,
+    /// The triangles of a file, within the sphere of radius 1 about the origin.
+    Mesh,
 }
 
 /// A rippled sphere.
@@ -87,6 +103,7 @@ impl Shape {
             Self::BentPatch => "bent-patch",
             Self::Cylinder => "cylinder",
             Self::Ribbon => "ribbon",
+            Self::Mesh => "mesh",
         }
     }
 }
@@ -110,16 +127,19 @@ impl SurfaceSpec {
             ("bent-patch", Word::Of(Shape::BentPatch)),
             ("cylinder", Word::Of(Shape::Cylinder)),
             ("ribbon", Word::Of(Shape::Ribbon)),
+            ("mesh", Word::Of(Shape::Mesh)),
         ];
         let shape = match reader.choice("shape", &shapes) {
             Word::Of(shape) => shape,
             Word::WavySphere => Shape::WavySphere(WavySphereSpec::read(reader)),
         };
+        let model = if shape == Shape::Mesh { ModelSpec::read(reader) } else { None };
         let tiles = reader.item("tiles");
         let limits = Limits::above(0.0, 1e6);
         let tiles = tiles.and_then(|t| Some((t.clone(), t.real(limits)?)));
         let axes = AxesSpec::read(reader, shape);
-        (Self { shape, axes, perturbation: read_perturbation(reader, axes) }, tiles)
+        let perturbation = read_perturbation(reader, axes);
+        (Self { shape, axes, perturbation, model }, tiles)
     }
 }
 
@@ -150,6 +170,18 @@ fn read_perturbation(reader: &Reader, axes: AxesSpec) -> Perturbation {
             unit: reader.real("height_unit", 1.0, Limits::above(0.0, 1e6)),
         },
         Form::ScaleInvariant => Perturbation::ScaleInvariant,
+    }
+}
+
+impl ModelSpec {
+    fn read(reader: &Reader) -> Option<Self> {
+        let file = reader.required("file", "the path of an OBJ, glTF or GLB file")?;
+        let path = folder(reader).join(file.text()?);
+        if !path.is_file() {
+            let help = "paths are relative to the folder of this file".to_owned();
+            file.error(format!("there is no file {}", path.display()), Some(help));
+        }
+        Some(Self { path, up: reader.choice("up", &[("y", Up::Y), ("z", Up::Z)]) })
     }
 }
 

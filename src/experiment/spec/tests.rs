@@ -54,7 +54,7 @@ fn everything_but_textures_and_methods_has_a_default() {
     assert_eq!((spec.name.as_str(), spec.title.as_str(), spec.seed), ("ribbed", "ribbed", 1));
     assert_eq!(spec.image, ImageSpec { width: 160, height: 120 });
     let (axes, perturbation) = (AxesSpec::Natural, Perturbation::Tangent);
-    let plane = SurfaceSpec { shape: Shape::Plane, axes, perturbation };
+    let plane = SurfaceSpec { shape: Shape::Plane, axes, perturbation, model: None };
     assert_eq!(spec.surface, plane);
     let target = [0.0; 3];
     let camera = CameraSpec { elevation: 40.0, azimuth: -90.0, fov: 25.0, distance: 4.0, target };

@@ -18,7 +18,8 @@ use std::sync::Arc;
 
 use super::{Batch, Lane};
 use crate::lobe::sampled::{facet, in_frame};
-use crate::lobe::{MultipleSurface, NdfImage, SampledLobe, Shading};
+use crate::lobe::vector::V3;
+use crate::lobe::{Facet, MultipleSurface, NdfImage, SampledLobe, Shading, Spread};
 use crate::synthesis::MicroFrame;
 
 /// What every form shades by: the NDF, and its slope covariance for shadowing and masking.
@@ -42,22 +43,6 @@ impl OwnNdf {
         surface
     }
 
-    /// Radiance of lane `i` of a batch from a microfacet.
-    #[inline(always)]
-    fn sent(&self, batch: &Batch, i: usize, frame: &MicroFrame, shading: Shading) -> f32 {
-        let density = in_frame(&self.image, frame, batch.half(i));
-        match shading {
-            Shading::Ndf => density,
-            Shading::Microfacet => {
-                density * facet(*frame, self.spread).geometry(batch.light(i), batch.view(i))
-            }
-            Shading::Phong | Shading::TorranceSparrow(_) => {
-                let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
-                self.about(*frame, 1.0).radiance(shading, half, light, view)
-            }
-        }
-    }
-
     /// Shades a batch whose lanes have these microfacets and amplitudes.
     #[inline(always)]
     fn shade(
@@ -71,8 +56,29 @@ impl OwnNdf {
             *out = 0.0;
             if batch.irradiance[i] > 0.0 {
                 let (frame, amplitude) = microfacet(i);
-                *out = batch.irradiance[i] * amplitude * self.sent(batch, i, &frame, shading);
+                let lobe = Microfacet { ndf: self, frame };
+                let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
+                let sent = lobe.radiance(shading, half, light, view);
+                *out = batch.irradiance[i] * amplitude * sent;
             }
         }
+    }
+}
+
+/// A [`SampledLobe`] of amplitude 1 that borrows its NDF.
+struct Microfacet<'a> {
+    ndf: &'a OwnNdf,
+    frame: MicroFrame,
+}
+
+impl Spread for Microfacet<'_> {
+    #[inline(always)]
+    fn density(&self, h: V3) -> f32 {
+        in_frame(&self.ndf.image, &self.frame, h)
+    }
+
+    #[inline(always)]
+    fn facet(&self) -> Facet {
+        facet(self.frame, self.ndf.spread)
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::super::{Batch, Lane, Prefiltered};
 use super::OwnNdf;
-use crate::lobe::{MultipleSurface, Shading};
+use crate::lobe::{MultipleSurface, NdfImage, Shading};
 use crate::synthesis::{MicroFrame, Synthesis};
 use crate::texture::Footprint;
 
@@ -22,6 +22,11 @@ impl Synthesised {
     pub fn new(synthesis: Arc<Synthesis>, octaves: f64) -> Self {
         let ndf = OwnNdf::new(Arc::clone(&synthesis.ndf));
         Self { synthesis, ndf, octaves }
+    }
+
+    /// The same bumps, shaded by another NDF than theirs: "these two parts can actually be used independently" (§1).
+    pub fn shaded_by(self, ndf: Arc<NdfImage>) -> Self {
+        Self { ndf: OwnNdf::new(ndf), ..self }
     }
 
     /// The microfacet's frame at a footprint, from the table L(r₁, r₂).

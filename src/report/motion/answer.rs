@@ -33,19 +33,25 @@ fn names(standings: &[&Standing]) -> String {
     list(&labels)
 }
 
+/// Verb and pronoun of one method or several.
+fn flickers(methods: usize) -> (&'static str, &'static str) {
+    if methods == 1 { ("flickers", "its") } else { ("flicker", "their") }
+}
+
 /// The answer of the one sequence there is.
 fn alone(race: &Race) -> String {
     let winners = race.winners();
-    let (best, verb) = (winners[0], if winners.len() == 1 { "moves" } else { "move" });
+    let best = winners[0];
+    let (verb, whose) = flickers(winners.len());
     let wrong = best.wrong.map_or_else(String::new, percent);
     let worth = match best.worth {
         Some(worth) if best.method.name != BRUTE_FORCE => {
-            format!(", as it does of {} unfiltered samples a pixel", samples(worth))
+            format!(", as little as with {} unfiltered samples a pixel", samples(worth))
         }
         _ => String::new(),
     };
     format!(
-        "{} {verb} most like the truth: from frame to frame its error changes by {wrong} of what the truth changes{worth}.",
+        "{} {verb} least beside the truth: from frame to frame {whose} error changes by {wrong} of what the truth changes{worth}.",
         names(&winners)
     )
 }
@@ -58,9 +64,10 @@ fn several(moving: &[&Race]) -> Vec<String> {
     };
     let most = labels.iter().map(|label| wins(label)).max().unwrap_or_default();
     let leaders: Vec<&str> = labels.into_iter().filter(|label| wins(label) == most).collect();
-    let (verb, each) = if leaders.len() == 1 { ("moves", "") } else { ("move", " each") };
+    let (verb, whose) = flickers(leaders.len());
+    let each = if leaders.len() == 1 { "" } else { " each" };
     let first = format!(
-        "{} {verb} most like the truth: least wrong in what changes from frame to frame{each} in {most} of {}.",
+        "{} {verb} least beside the truth: {whose} error changes least from frame to frame{each} in {most} of {}.",
         list(&leaders),
         count(moving.len(), "sequence")
     );

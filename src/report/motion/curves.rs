@@ -16,8 +16,8 @@ pub fn errors(methods: &[MethodInfo], race: &Race) -> Option<Canvas> {
     let lines = lines(methods, race, |standing| standing.errors.clone(), 1.0);
     let own = race.frames.iter().map(|frame| frame.reference.rmse);
     let floor = own.fold(0.0, f64::max);
-    let values = lines.iter().flat_map(|line| &line.points).map(|p| p.1);
-    let y = Axis::decades(values.chain(std::iter::once(floor)));
+    // The floor is mostly far below: it is drawn where it is in sight.
+    let y = Axis::decades(lines.iter().flat_map(|line| &line.points).map(|p| p.1));
     Chart { lines, y, y_title: "RMSE", x_title: "frame", floor }.draw()
 }
 

@@ -80,7 +80,7 @@ impl Reel {
         }];
         shown.extend(race.standings.iter().filter_map(|standing| {
             let label = standing.method.label.as_str();
-            let wrong = |wrong| format!("error changes by {}", percent(wrong));
+            let wrong = |wrong| format!("wrong change {}", percent(wrong));
             let remark = standing.wrong.map_or_else(String::new, wrong);
             Some(Shown { label, remark, films: films(race.frames, label, spp)? })
         }));

@@ -2,7 +2,7 @@
 
 use super::standing::{Race, Standing};
 use crate::report::contest::BRUTE_FORCE;
-use crate::report::phrase::{number, percent, samples_short, scale};
+use crate::report::phrase::{number, percent, samples_short};
 use crate::report::tables::{Cell, Table, label};
 
 /// How every method flickers over a sequence, in the order of the spec.
@@ -34,7 +34,7 @@ pub fn flicker(race: &Race) -> Table {
     ];
     let (truth, noise) = (race.sequence.truth_change, race.sequence.noise);
     let upwards = match truth - noise {
-        rest if rest > 0.0 => format!(", in truth up to {} times as much", scale(truth / rest)),
+        rest if rest > 0.0 => format!(", or in truth up to {} more", percent(noise / rest)),
         _ => String::new(),
     };
     let own: f64 = race.frames.iter().map(|frame| frame.reference.rmse).sum();
@@ -43,7 +43,7 @@ pub fn flicker(race: &Race) -> Table {
         head: head.map(str::to_owned).to_vec(),
         rows: rows.collect(),
         notes: vec![
-            "Changes are means over pixels and from each frame to the next. Change of its error: 0 % moves as the truth \
+            "Changes are means over pixels and from each frame to the next. Change of its error, or wrong change: 0 % moves as the truth \
              does, whatever constant it is off by; 100 % is as wrong as an image that stands still. In small type: \
              unfiltered samples a pixel whose error changes as little. Flicker: its change over the truth’s, 1 as lively, \
              above it sparkles, below it is stuck or smeared. Bold: the least, and what ties with it."
