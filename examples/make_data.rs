@@ -43,10 +43,7 @@ const ITEMS: [Item; 3] = [
 
 fn bumps(item: &Item) -> Option<Bumps> {
     let entry = find(item.pattern)?;
-    let mut values = Values::defaults(entry.parameters);
-    for &(name, value) in item.set {
-        values.set(name, value);
-    }
+    let values = Values::defaults(entry.parameters).with(item.set);
     let [width, height] = item.size;
     Some((entry.build)(width, height, &values, item.seed))
 }

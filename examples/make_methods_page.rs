@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use wrinkle::lobe::BaseLobe;
 use wrinkle::method::{Entry, entries};
-use wrinkle::parameter::{Domain, Parameter, Values};
+use wrinkle::parameter::{Domain, Parameter, Values, row_form};
 
 const HEAD: &str = "# Methods
 
@@ -69,6 +69,8 @@ fn values(domain: &Domain) -> String {
         Domain::Real { min, max, .. } => format!("number, [{min}, {max}]"),
         Domain::Whole { min, max, .. } => format!("whole number, [{min}, {max}]"),
         Domain::Choice { words } => words.join(", "),
+        Domain::Text { .. } => "text".into(),
+        Domain::Rows { columns, most, .. } => format!("1 to {most} rows {}", row_form(columns)),
     }
 }
 

@@ -27,4 +27,5 @@ pub mod render;
 pub mod report;
 pub mod scene;
 pub mod surface;
+pub mod synthesis;
 pub mod texture;

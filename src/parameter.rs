@@ -15,7 +15,7 @@ pub struct Card {
 }
 
 /// One option of a pattern or method.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     /// Its key in a spec.
     pub name: &'static str,
@@ -26,7 +26,7 @@ pub struct Parameter {
 }
 
 /// The values a [`Parameter`] may take, and its default.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Domain {
     /// A real number in [min, max].
     Real {
@@ -51,6 +51,35 @@ pub enum Domain {
         /// The words.
         words: &'static [&'static str],
     },
+    /// A text.
+    Text {
+        /// Text if not given.
+        default: &'static str,
+        /// Tells what is wrong with a text, a phrase that goes on "`text` ".
+        check: fn(&str) -> Result<(), String>,
+    },
+    /// A list of rows of numbers, such as the terms of a series.
+    Rows {
+        /// What each number of a row is.
+        columns: &'static [Column],
+        /// The rows if not given.
+        default: &'static [&'static [f64]],
+        /// Most rows allowed; at least one is.
+        most: usize,
+    },
+}
+
+/// A number in each row of [`Domain::Rows`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Column {
+    /// What it is.
+    pub name: &'static str,
+    /// Smallest value allowed.
+    pub min: f64,
+    /// Largest value allowed.
+    pub max: f64,
+    /// Whether it must be a whole number.
+    pub whole: bool,
 }
 
 impl Domain {
@@ -60,17 +89,31 @@ impl Domain {
             Self::Real { default, .. } => Value::Number(default),
             Self::Whole { default, .. } => Value::Number(f64::from(default)),
             Self::Choice { words } => Value::Word(words[0]),
+            Self::Text { default, .. } => Value::Text(default.to_owned()),
+            Self::Rows { default, .. } => {
+                Value::Rows(default.iter().map(|row| row.to_vec()).collect())
+            }
         }
     }
 }
 
+/// The columns of [`Domain::Rows`] in brackets, as a spec writes a row.
+pub fn row_form(columns: &[Column]) -> String {
+    let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+    format!("[{}]", names.join(", "))
+}
+
 /// A parameter's value.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// Of a real or whole parameter.
     Number(f64),
     /// Of a choice.
     Word(&'static str),
+    /// Of a text.
+    Text(String),
+    /// Of rows of numbers.
+    Rows(Vec<Vec<f64>>),
 }
 
 impl std::fmt::Display for Value {
@@ -78,6 +121,8 @@ impl std::fmt::Display for Value {
         match self {
             Self::Number(number) => write!(f, "{number}"),
             Self::Word(word) => f.write_str(word),
+            Self::Text(text) => write!(f, "{text:?}"),
+            Self::Rows(rows) => write!(f, "{rows:?}"),
         }
     }
 }
@@ -90,6 +135,12 @@ impl Values {
     /// The defaults of these parameters.
     pub fn defaults(parameters: &[Parameter]) -> Self {
         Self(parameters.iter().map(|p| (p.name, p.domain.default())).collect())
+    }
+
+    /// The same with some values set, as [`Values::set`] does.
+    pub fn with(mut self, set: &[(&'static str, Value)]) -> Self {
+        set.iter().for_each(|(name, value)| self.set(name, value.clone()));
+        self
     }
 
     /// Sets a value. The caller has checked it against the parameter's domain.
@@ -127,9 +178,31 @@ impl Values {
         }
     }
 
+    /// The text of parameter `name`.
+    ///
+    /// # Panics
+    /// If there is no such text.
+    pub fn text(&self, name: &str) -> &str {
+        match self.0.get(name) {
+            Some(Value::Text(text)) => text,
+            other => panic!("parameter {name} is {other:?}, not a text"),
+        }
+    }
+
+    /// The rows of parameter `name`, each as long as its columns.
+    ///
+    /// # Panics
+    /// If there are no such rows.
+    pub fn rows(&self, name: &str) -> &[Vec<f64>] {
+        match self.0.get(name) {
+            Some(Value::Rows(rows)) => rows,
+            other => panic!("parameter {name} is {other:?}, not rows of numbers"),
+        }
+    }
+
     /// All values by name, in alphabetical order.
-    pub fn iter(&self) -> impl Iterator<Item = (&'static str, Value)> + '_ {
-        self.0.iter().map(|(name, value)| (*name, *value))
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &Value)> + '_ {
+        self.0.iter().map(|(name, value)| (*name, value))
     }
 }
 

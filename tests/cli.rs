@@ -57,7 +57,7 @@ fn refused(folder: &Path, args: &[&str], code: i32) -> String {
 fn help_is_the_manual() {
     let help = |args: &[&str]| out(&output(repository(), args));
     insta::assert_snapshot!("help", help(&["--help"]));
-    for command in ["run", "list", "render", "lobes", "compare", "fit"] {
+    for command in ["run", "list", "render", "lobes", "compare", "fit", "bake"] {
         let text = help(&[command, "--help"]);
         assert!(text.contains("Examples:"), "{command} has no example");
         insta::assert_snapshot!(format!("help_{command}"), text);
@@ -323,4 +323,45 @@ fn a_wrong_multiple_surface_is_refused() {
         assert!(message.contains(says), "{args:?}: {message}");
     }
     assert!(!folder.path().join("o.png").exists());
+}
+
+#[test]
+fn a_baked_map_is_one_that_can_be_rendered_and_is_the_same_every_time() {
+    let folder = folder();
+    let bake = |name: &str| {
+        let args = ["bake", "ggx:0.2,0.5,30", "--size", "48x32", "--cells", "4", "--out", name];
+        output(folder.path(), &args)
+    };
+    let said = bake("a.png");
+    assert_eq!(said.status.code(), Some(0), "{}", err(&said));
+    assert!(out(&said).starts_with("a.png: 48x32, 3 octaves; "), "{}", out(&said));
+    assert_eq!(bake("b.png").status.code(), Some(0));
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(bytes("a.png"), bytes("b.png"));
+    let like =
+        ["bake", "--like", "a.png", "--size", "16x16", "--cells", "2", "--out", "c.exr", "--json"];
+    let said: Value = serde_json::from_str(&out(&output(folder.path(), &like))).unwrap();
+    assert_eq!(said["width"], 16);
+    let render = ["render", "c.exr", "--out", "look.png", "--size", "8x8"];
+    assert_eq!(output(folder.path(), &render).status.code(), Some(0));
+}
+
+#[test]
+fn what_is_no_distribution_is_told_with_its_place() {
+    let folder = folder();
+    let image = |name: &str, value: fn(u32, u32) -> u16| {
+        let pixel = |x, y| image::Luma([value(x, y)]);
+        image::ImageBuffer::from_fn(16, 16, pixel).save(folder.path().join(name)).unwrap();
+    };
+    image("black.png", |_, _| 0);
+    image("white.png", |_, _| 900);
+    let bake = |ndf: &str| refused(folder.path(), &["bake", ndf, "--out", "x.png"], 2);
+    assert!(bake("black.png").contains("black.png: all of it is 0"));
+    assert!(bake("white.png").contains("outside of the unit disc, first at pixel (0, 0)"));
+    assert!(bake("tiny.toml").contains("tiny.toml"));
+    assert!(bake("nothing.png").contains("there is no file nothing.png"));
+    assert!(bake("beckmann:7").contains("a roughness α is from 0.02 to 2"));
+    let huge = ["bake", "beckmann:0.3", "--size", "16384x16384", "--out", "x.png"];
+    assert!(refused(folder.path(), &huge, 2).contains("texels are more than"));
+    assert!(!folder.path().join("x.png").exists());
 }

@@ -1,7 +1,7 @@
 //! The patterns against what is known of them in closed form.
 
 use proptest::prelude::*;
-use wrinkle::parameter::{Domain, Value, Values};
+use wrinkle::parameter::{Column, Domain, Value, Values};
 use wrinkle::pattern::{Bumps, Entry, entries, find};
 use wrinkle::texture::NormalMap;
 
@@ -13,9 +13,9 @@ fn make(name: &str, [width, height]: [usize; 2], set: &[(&str, Value)], seed: u6
 
 fn values(entry: &Entry, set: &[(&str, Value)]) -> Values {
     let mut values = Values::defaults(entry.parameters);
-    for &(name, value) in set {
-        let parameter = entry.parameters.iter().find(|p| p.name == name).unwrap();
-        values.set(parameter.name, value);
+    for (name, value) in set {
+        let parameter = entry.parameters.iter().find(|p| p.name == *name).unwrap();
+        values.set(parameter.name, value.clone());
     }
     values
 }
@@ -49,6 +49,11 @@ fn settings(entry: &Entry) -> Vec<Values> {
                 vec![Value::Number(min.into()), Value::Number(max.into())]
             }
             Domain::Choice { words } => words.iter().map(|w| Value::Word(w)).collect(),
+            Domain::Text { .. } => ["i", "é\n§ 7", "Ω"].map(|t| Value::Text(t.into())).into(),
+            Domain::Rows { columns, .. } => {
+                let row = |end: fn(&Column) -> f64| columns.iter().map(end).collect();
+                [row(|c| c.min), row(|c| c.max)].map(|row| Value::Rows(vec![row])).into()
+            }
         };
         all.extend(ends.into_iter().map(|end| values(entry, &[(parameter.name, end)])));
     }

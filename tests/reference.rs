@@ -127,9 +127,9 @@ fn a_reference_knows_its_own_error() {
 fn make(name: &str, [width, height]: [usize; 2], set: &[(&str, Value)]) -> Arc<NormalMap> {
     let entry = pattern::find(name).unwrap();
     let mut values = Values::defaults(entry.parameters);
-    for &(name, value) in set {
-        let parameter = entry.parameters.iter().find(|p| p.name == name).unwrap();
-        values.set(parameter.name, value);
+    for (name, value) in set {
+        let parameter = entry.parameters.iter().find(|p| p.name == *name).unwrap();
+        values.set(parameter.name, value.clone());
     }
     Arc::new((entry.build)(width, height, &values, 5).normals)
 }

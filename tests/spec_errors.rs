@@ -107,3 +107,43 @@ fn places_can_be_asked_for() {
     let [error] = error.errors() else { panic!("one error: {error}") };
     assert_eq!((error.line, error.column, &text[error.span.clone()]), (2, 9, "0"));
 }
+
+#[test]
+fn texts_and_rows_are_checked_letter_by_letter_and_number_by_number() {
+    let spec = |texture: &str| {
+        errors_of(&format!(
+            "[sweep]\ntexture = [\"mine\"]\nmethod = [\"averaged\"]\n[texture.mine]\n{texture}\n"
+        ))
+    };
+    let euro = spec("pattern = \"letters\"\ntext = \"5 €\"");
+    assert!(euro.contains("`text` has '€' (U+20AC), which the font has no picture of"), "{euro}");
+    let rows = |terms: &str| spec(&format!("pattern = \"fourier\"\nterms = {terms}"));
+    let short = rows("[[1, 2, 0.1]]");
+    assert!(short.contains("each of `terms` must be [k, l, a, b], not a list"), "{short}");
+    let broken = rows("[[1.5, 2, 0.1, 0], [0, 1, \"x\", 2e9]]");
+    for wrong in [
+        "`k` of each row must be a whole number from -2048 to 2048, not 1.5",
+        "`a` of each row must be a number from -1000 to 1000, not \"x\"",
+        "`b` of each row must be a number from -1000 to 1000, not 2e9",
+    ] {
+        assert!(broken.contains(wrong), "{broken}");
+    }
+    assert!(rows("[]").contains("a list of 1 to 1024 rows [k, l, a, b], not an empty list"));
+}
+
+#[test]
+fn methods_that_spread_normals_refuse_stretched_slopes() {
+    let spec = |rest: &str| {
+        errors_of(&format!(
+            "[sweep]\ntexture = [\"grid\"]\nmethod = [\"averaged\", \"lean\"]\n[surface]\nperturbation = \
+             \"displacement\"\n{rest}\n"
+        ))
+    };
+    let errors = spec("height_unit = 0.5");
+    assert!(errors.contains("\"lean\" cannot be used with this `perturbation`"), "{errors}");
+    assert!(!errors.contains("\"averaged\" cannot"), "{errors}");
+    let framed = spec("frame = \"main-direction\"");
+    assert!(framed.contains("displacements stand along u and v"), "{framed}");
+    let truth = spec("[reference]\ntruth = \"relief\"");
+    assert!(truth.contains("takes slopes as they are in the map"), "{truth}");
+}

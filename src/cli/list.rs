@@ -124,6 +124,14 @@ fn parameters(list: &[Parameter]) -> Vec<Json> {
                 Domain::Choice { words } => {
                     json!({ "type": "choice", "default": words[0], "choices": words })
                 }
+                Domain::Text { default, .. } => json!({ "type": "text", "default": default }),
+                Domain::Rows { columns, default, most } => {
+                    let columns: Vec<Json> = columns
+                        .iter()
+                        .map(|c| json!({ "name": c.name, "min": c.min, "max": c.max, "whole": c.whole }))
+                        .collect();
+                    json!({ "type": "rows", "default": default, "columns": columns, "most": most })
+                }
             };
             json!({ "name": p.name, "meaning": p.meaning, "domain": domain })
         })

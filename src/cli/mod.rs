@@ -1,6 +1,7 @@
 //! Floor 8: the command line. One file a subcommand; they own arguments, standard output and exit codes.
 
 mod args;
+mod bake;
 mod compare;
 mod exit;
 mod experiments;
@@ -41,6 +42,7 @@ fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
         Some(Command::Lobes(args)) => lobes::lobes(&args, out),
         Some(Command::Compare(args)) => compare::compare(&args, out),
         Some(Command::Fit(args)) => fit::fit(&args, out),
+        Some(Command::Bake(args)) => bake::bake(&args, out),
         None => {
             // Nothing was asked: help, as a first answer.
             write!(out, "{}", Args::command().render_help().ansi())?;

@@ -39,6 +39,11 @@ pub enum Drawing {
     Fields(Vec<Field>),
     /// Reflection in the plane of incidence, as polar plots.
     Lobes(Vec<LobePlot>),
+    /// Tables of heights as nets of lines, seen from above and aside, hidden lines left out. Heights are in
+    /// sides of a cell.
+    Nets(Vec<Field>),
+    /// Diagrams of lines and arrows.
+    Sketches(Vec<Sketch>),
 }
 
 /// Rendered images on one exposure.
@@ -150,6 +155,28 @@ pub struct Field {
     pub width: usize,
     /// Values row by row from the *bottom*, as maps have them; as many as a multiple of `width`.
     pub values: Vec<f64>,
+}
+
+/// A diagram, to one scale each way; y is up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sketch {
+    /// What it is called.
+    pub label: String,
+    /// What is drawn, the first below the others.
+    pub strokes: Vec<Stroke>,
+}
+
+/// A line of a [`Sketch`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stroke {
+    /// Its points, joined.
+    pub points: Vec<[f64; 2]>,
+    /// Whether it ends in an arrow's head.
+    pub arrow: bool,
+    /// What stands beside its end; may be empty.
+    pub name: String,
+    /// Which of the inks it is drawn in; equal numbers look alike.
+    pub ink: usize,
 }
 
 /// Reflection in the plane of incidence for a few directions of incidence.

@@ -5,7 +5,7 @@ use crate::experiment::spec::{PaperKeys, RowKeys, Spec};
 use crate::method::Progress;
 use crate::parameter::{Parameter, Values};
 
-use super::{Exhibit, fournier_1992, olano_north_1997, schilling_1997};
+use super::{Exhibit, blinn_1978, fournier_1992, kautz_2001, olano_north_1997, schilling_1997};
 
 /// A paper whose figures, tables and numbers are made again.
 #[derive(Debug)]
@@ -95,8 +95,13 @@ impl Row {
 
 /// The papers whose evidence can be gathered.
 pub fn papers() -> &'static [Paper] {
-    const PAPERS: &[Paper] =
-        &[fournier_1992::PAPER, schilling_1997::PAPER, olano_north_1997::PAPER];
+    const PAPERS: &[Paper] = &[
+        blinn_1978::PAPER,
+        fournier_1992::PAPER,
+        schilling_1997::PAPER,
+        olano_north_1997::PAPER,
+        kautz_2001::PAPER,
+    ];
     PAPERS
 }
 

@@ -1,26 +1,30 @@
 //! From a spec to entities: the author of the world.
 
+mod placement;
+
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 
+use placement::{Placement, placements, spawn_lights};
+
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, ModelSpec, Reading as ReadingSpec, ReferenceSpec,
-    Scale, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, ModelSpec, Pose, Reading as ReadingSpec,
+    ReferenceSpec, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
 use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
-use crate::render::{Camera, direction};
+use crate::render::direction;
 use crate::scene::{
-    BumpSource, CameraPose, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
-    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy,
-    SurfaceOrigin, SurfaceShape, Texture, Tiling, TrialOf,
+    BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
+    ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy, SurfaceOrigin,
+    SurfaceShape, Texture, TiledBefore, Tiling, TrialOf,
 };
 use crate::surface::{
-    Cylinder, MainDirection, Mesh, Plane, Shape, Sphere, WavyFrame, WavySphere, bent_patch,
-    drapery, read_model, ribbon, teapot,
+    Cylinder, MainDirection, Mesh, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame,
+    WavySphere, bent_patch, drapery, read_model, ribbon, teapot,
 };
 use crate::texture::image_file::{HeightReading, NormalReading};
 use crate::texture::{Integrated, Wrap, integrate};
@@ -59,12 +63,27 @@ pub struct PlannedScene {
     pub distance: f64,
     /// Degrees above the plane z = 0 that its camera stands at.
     pub elevation: f64,
+    /// Which frame of its sequence it is, if things move.
+    pub frame: Option<Frame>,
     /// A file-name-safe identifier, unique in the experiment.
     pub slug: String,
+    /// The slug of its sequence: the same in all its frames. Of a still scene, its own.
+    pub sequence: String,
     /// Its prefilters, one a method in the spec's order.
     pub prefilters: Vec<Entity>,
     /// Its trials, method by method.
     pub trials: Vec<PlannedTrial>,
+}
+
+/// A frame of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Its number, the first being 0.
+    pub number: u32,
+    /// Where things stand in it.
+    pub pose: Pose,
+    /// Distance of the camera at rest, which the texture is tiled before.
+    pub rest: f64,
 }
 
 /// A trial of a scene.
@@ -96,8 +115,8 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
         .map(|&base| (base, world.spawn(Material { base, shading: spec.shading }).id()))
         .collect();
     let surface = spawn_surface(world, &spec.surface);
-    let light = spawn_light(world, &spec.light);
-    let placements = placements(world, spec);
+    let lights = spawn_lights(world, spec);
+    let placements = placements(world, spec, &lights);
 
     let mut plan = Plan { textures, scenes: Vec::new() };
     for (index, &texture) in plan.textures.iter().enumerate() {
@@ -106,18 +125,24 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
             let of = |strategy| PrefilterOf { texture, strategy, material };
             let prefilters = spawn_prefilters(world, spec, &strategies, of);
             for placement in &placements {
-                let of = SceneOf { texture, surface, camera: placement.camera, light, material };
-                let slug = slug(spec, index, &base, placement);
-                let scene = spawn_scene(world, spec, of, placement.tiling);
+                let Placement { camera, light, tiling, .. } = *placement;
+                let of = SceneOf { texture, surface, camera, light, material };
+                let sequence = slug(spec, index, &base, placement);
+                let scene = spawn_scene(world, spec, of, placement);
                 plan.scenes.push(PlannedScene {
                     entity: scene,
                     texture: index,
                     texture_key: texture_key.clone(),
                     base,
-                    tiling: placement.tiling,
+                    tiling,
                     distance: placement.distance,
                     elevation: placement.elevation,
-                    slug,
+                    frame: placement.frame,
+                    slug: match placement.frame {
+                        Some(frame) => format!("{sequence}-f{:03}", frame.number + 1),
+                        None => sequence.clone(),
+                    },
+                    sequence,
                     trials: spawn_trials(world, spec, scene, &prefilters),
                     prefilters: prefilters.clone(),
                 });
@@ -127,49 +152,19 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
     plan
 }
 
-/// A camera, and how the texture is laid before it.
-struct Placement {
-    camera: Entity,
-    distance: f64,
-    elevation: f64,
-    tiling: Tiling,
-}
-
-/// Every elevation by every scale.
-fn placements(world: &mut World, spec: &Spec) -> Vec<Placement> {
-    let of_scale: Vec<(f64, Tiling)> = match &spec.sweep.scale {
-        Scale::TexelsPerPixel(list) => {
-            let tiled = |&texels| (spec.camera.distance, Tiling::TexelsPerPixel(texels));
-            list.iter().map(tiled).collect()
-        }
-        Scale::Distance { distances, tiles } => {
-            distances.iter().map(|&distance| (distance, Tiling::Tiles(*tiles))).collect()
-        }
-    };
-    let mut all = Vec::new();
-    for &elevation in &spec.sweep.elevations {
-        for &(distance, tiling) in &of_scale {
-            let camera = world.spawn(pose(spec, elevation, distance)).id();
-            all.push(Placement { camera, distance, elevation, tiling });
-        }
-    }
-    all
-}
-
-fn pose(spec: &Spec, elevation: f64, distance: f64) -> CameraPose {
-    let (at, image) = (&spec.camera, &spec.image);
-    let origin = direction(elevation, at.azimuth) * distance;
-    let camera = Camera::look_at(origin, at.target.into(), at.fov, image.width, image.height);
-    CameraPose { camera, distance }
-}
-
-fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, tiling: Tiling) -> Entity {
+fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, placement: &Placement) -> Entity {
     let centre = [spec.image.width / 2, spec.image.height / 2];
     // Beside the centre, a pixel halfway to the image's corner, where the highlight fades.
     let aside = [spec.image.width / 4, spec.image.height / 4];
     let ReferenceSpec { spp, replicates, truth } = spec.reference;
-    let reference = ReferencePlan { spp, replicates, truth };
-    world.spawn((of, tiling, reference, ProbePlan(vec![centre, aside]))).id()
+    let still = ReferencePlan { spp, replicates, truth, first: 1 };
+    let Some(Frame { number, .. }) = placement.frame else {
+        return world.spawn((of, placement.tiling, still, ProbePlan(vec![centre, aside]))).id();
+    };
+    // No two frames' references share a random number, so that the noise of their difference is known.
+    let reference = ReferencePlan { first: 1 + number * replicates, ..still };
+    let before = TiledBefore(placement.first);
+    world.spawn((of, placement.tiling, before, reference, ProbePlan(vec![centre]))).id()
 }
 
 /// One prefilter a method; those that differ in their lookup alone are built once.
@@ -230,7 +225,7 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
             pattern::file::read(path, &reading).map_err(|error| LoadError(error.to_string()))?
         }
     };
-    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    let heights = heights || spec.interpolation.spline().is_some();
     if heights && bumps.heights.is_none() {
         let Integrated { heights, residual } = integrate(&bumps.normals);
         bumps.notes.push(residual.to_string());
@@ -238,6 +233,18 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
     }
     if let Some(heights) = bumps.heights.take() {
         bumps.normals = bumps.normals.with_heights(Arc::new(heights));
+    }
+    bumps.normals = bumps.normals.with_interpolation(spec.interpolation);
+    if spec.repeat > 1 {
+        let longest = bumps.normals.width().max(bumps.normals.height());
+        if longest * spec.repeat > MAX_REPEATED {
+            let (name, most) = (&spec.name, MAX_REPEATED / longest);
+            return Err(LoadError(format!(
+                "texture {name} is {longest} texels long: `repeat` may be {most} at most",
+                most = most.max(1)
+            )));
+        }
+        bumps.normals = bumps.normals.replicated(spec.repeat);
     }
     Ok(bumps)
 }
@@ -257,10 +264,10 @@ fn spawn_surface(world: &mut World, spec: &SurfaceSpec) -> Entity {
     let Some(ModelSpec { path, up }) = spec.model.clone() else {
         return world.spawn(SurfaceShape(shape(spec))).id();
     };
-    let axes = spec.axes;
+    let (axes, perturbation) = (spec.axes, spec.perturbation);
     let origin = SurfaceOrigin(Box::new(move || {
         let model = read_model(&path, up).map_err(|error| LoadError(error.to_string()))?;
-        Ok(Shaped { shape: along(axes, Shape::Mesh(model.mesh)), notes: model.notes })
+        Ok(Shaped { shape: along(axes, perturbation, Shape::Mesh(model.mesh)), notes: model.notes })
     }));
     world.spawn(origin).id()
 }
@@ -285,11 +292,14 @@ fn shape(spec: &SurfaceSpec) -> Shape {
             Shape::WavySphere(WavySphere::new(wavy.ripples, wavy.cells, frame))
         }
     };
-    along(spec.axes, shape)
+    along(spec.axes, spec.perturbation, shape)
 }
 
-/// The surface with bumps along these axes.
-fn along(axes: AxesSpec, shape: Shape) -> Shape {
+/// The surface with bumps along these axes, as steep as that form makes them.
+fn along(axes: AxesSpec, perturbation: Perturbation, shape: Shape) -> Shape {
+    if perturbation != Perturbation::Tangent {
+        return Shape::Perturbed(Perturbed::new(shape, perturbation));
+    }
     match axes {
         AxesSpec::MainDirection(main) => {
             Shape::MainDirection(MainDirection::new(shape, main.into()))
@@ -339,7 +349,8 @@ fn surroundings(
     }
 }
 
-/// A scene's file-name-safe identifier: its texture, its lobe and elevation if there are several, its scale.
+/// A scene's file-name-safe identifier, but for the number of its frame: its texture, its lobe and elevation if
+/// there are several, its scale.
 fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> String {
     let safe = |text: &str| -> String {
         text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
@@ -358,7 +369,9 @@ fn slug(spec: &Spec, texture: usize, base: &BaseLobe, placement: &Placement) -> 
     }
     parts.push(match placement.tiling {
         Tiling::TexelsPerPixel(texels) => format!("{texels}-texels"),
-        Tiling::Tiles(_) => format!("at-{}", placement.distance),
+        Tiling::Tiles(_) => {
+            format!("at-{}", placement.frame.map_or(placement.distance, |frame| frame.rest))
+        }
     });
     parts.join("-")
 }

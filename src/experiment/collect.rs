@@ -8,9 +8,10 @@ use super::results::{
     Costs, MethodInfo, Peak, Picture, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo,
     Results, SceneKey, SceneResult, Score, TextureInfo, TrialCost, TrialResult,
 };
+use super::sequence::sequences;
 use super::spec::{Shape, Spec, TextureSource, TextureSpec};
 use super::store::{PrefilterRecord, ProbeRecord, Store};
-use crate::lobe::{Shading, Spread};
+use crate::lobe::Spread;
 use crate::metric;
 use crate::scene::{Exposure, Probes, ReferenceImage, Scores, Stagehand, Tiling};
 use crate::texture::Lookup;
@@ -78,10 +79,12 @@ pub(super) fn collect(
         scenes.push(SceneResult {
             key: key(spec, scene, &probes),
             slug: scene.slug.clone(),
+            sequence: scene.sequence.clone(),
             reference: Reference {
                 film: Arc::new(image.0.film.clone()),
                 spp: image.0.spp,
                 rmse: image.0.rmse,
+                mean_error: image.0.mean_error,
                 truth: spec.reference.truth,
             },
             trials,
@@ -97,6 +100,8 @@ pub(super) fn collect(
         seed: spec.seed,
         methods: spec.sweep.methods.iter().map(describe_method).collect(),
         textures,
+        sequences: sequences(&scenes),
+        motion: spec.motion,
         scenes,
     };
     (results, costs)
@@ -107,7 +112,7 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
     // camera has no wish: there the first probe tells, at the pixel beside the image's centre.
     let measured = probes.first().map_or(f64::NAN, |probe| probe.texels_across);
     let texels_per_pixel = match (spec.surface.shape, scene.tiling) {
-        (Shape::Plane, Tiling::TexelsPerPixel(wish)) => wish,
+        (Shape::Plane, Tiling::TexelsPerPixel(wish)) if scene.frame.is_none() => wish,
         _ => (measured * 1e4).round() / 1e4,
     };
     SceneKey {
@@ -116,13 +121,11 @@ fn key(spec: &Spec, scene: &PlannedScene, probes: &[ProbeRecord]) -> SceneKey {
         light: spec.light.name().to_owned(),
         lobe: scene.base.name().to_owned(),
         parameter: scene.base.parameter(),
-        shading: match spec.shading {
-            Shading::Ndf => "ndf".to_owned(),
-            Shading::Microfacet => "microfacet".to_owned(),
-        },
+        shading: spec.shading.name().to_owned(),
         texels_per_pixel,
         distance: scene.distance,
         elevation: scene.elevation,
+        frame: scene.frame.map(|frame| frame.number + 1),
     }
 }
 

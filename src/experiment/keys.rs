@@ -58,8 +58,8 @@ pub(super) fn texture(texture: &TextureSpec) -> String {
 
 /// What a scene's reference depends on, beyond what is common.
 pub(super) fn scene(scene: &PlannedScene) -> String {
-    let PlannedScene { texture_key, base, tiling, distance, elevation, .. } = scene;
-    format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?}")
+    let PlannedScene { texture_key, base, tiling, distance, elevation, frame, .. } = scene;
+    format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?} {frame:?}")
 }
 
 /// What a trial depends on.

@@ -8,6 +8,7 @@ pub mod lock;
 pub mod preview;
 pub mod results;
 pub mod runner;
+pub mod sequence;
 pub mod spec;
 pub mod store;
 mod work;

@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::sequence::Sequence;
+use super::spec::MotionSpec;
 use crate::method::Truth;
 use crate::render::Film;
 use crate::texture::Lookup;
@@ -27,8 +29,12 @@ pub struct Results {
     pub methods: Vec<MethodInfo>,
     /// The textures, in the order of the spec.
     pub textures: Vec<TextureInfo>,
-    /// One a scene: a texture seen one way under one light with one base lobe.
+    /// One a scene: a texture seen one way under one light with one base lobe; of things that move, one a frame.
     pub scenes: Vec<SceneResult>,
+    /// How things move, if they do.
+    pub motion: Option<MotionSpec>,
+    /// One a scene that moves: its frames, and how methods flicker over them.
+    pub sequences: Vec<Sequence>,
 }
 
 /// A method as the experiment used it.
@@ -104,6 +110,9 @@ pub struct SceneKey {
     pub distance: f64,
     /// Degrees above the plane z = 0 that the camera stands at.
     pub elevation: f64,
+    /// Number of the frame, from 1, if things move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<u32>,
 }
 
 /// What was found for one scene.
@@ -113,6 +122,8 @@ pub struct SceneResult {
     pub key: SceneKey,
     /// A file-name-safe identifier, unique in the experiment, the same in every run.
     pub slug: String,
+    /// The slug of its sequence, the same in all its frames; of a still scene, its own.
+    pub sequence: String,
     /// The converged reference.
     pub reference: Reference,
     /// One a method and sample count, in the order of the spec.
@@ -133,6 +144,8 @@ pub struct Reference {
     /// Estimated root mean square error of the image itself: the standard error of the mean of its
     /// independent replicates, root mean square over pixels.
     pub rmse: f64,
+    /// The mean over pixels of each pixel's standard error.
+    pub mean_error: f64,
     /// What it shows of the bumps.
     pub truth: Truth,
 }

@@ -51,6 +51,8 @@ pub struct ReferenceRecord {
     pub spp: u32,
     /// Its own error.
     pub rmse: f64,
+    /// The mean standard error of its pixels.
+    pub mean_error: f64,
 }
 
 /// A trial as a record.

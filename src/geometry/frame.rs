@@ -56,6 +56,12 @@ impl Frame {
     }
 }
 
+/// A vector turned about z by degrees, from x towards y.
+pub fn turned(v: Vec3, degrees: f64) -> Vec3 {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    Vec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,15 +1,16 @@
-//! Floor 0: vectors, frames, hemisphere grids, rippled spheres, the Fourier transform, and elementary functions
+//! Floor 0: vectors, frames, hemisphere grids, rippled spheres, noise, the Fourier transform, and elementary functions
 //! that give the same bits on every machine.
 
 pub mod elementary;
 pub mod fourier;
 mod frame;
 mod hemisphere;
+pub mod noise;
 mod quad;
 mod ripples;
 mod simd;
 
-pub use frame::Frame;
+pub use frame::{Frame, turned};
 pub use hemisphere::{HemisphereGrid, Sample};
 pub use quad::Quad;
 pub use ripples::{Ripples, spherical_frame};

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 pub use mirror::{Filter, Seen, mirrored};
 
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, turned};
 use environment::Environment;
 
 /// Where light comes from. Light is not coloured: one number a ray.
@@ -43,6 +43,21 @@ impl Light {
             Self::Directional { .. } => "directional",
             Self::Point { .. } => "point",
             Self::Environment { .. } => "environment",
+        }
+    }
+
+    /// This light moved round the vertical through the origin, by degrees from +x towards +y.
+    pub fn turned(&self, degrees: f64) -> Self {
+        match *self {
+            Self::Directional { direction, irradiance } => {
+                Self::Directional { direction: turned(direction, degrees), irradiance }
+            }
+            Self::Point { position, intensity } => {
+                Self::Point { position: turned(position, degrees), intensity }
+            }
+            Self::Environment { ref environment, filter } => {
+                Self::Environment { environment: Arc::new(environment.turned(degrees)), filter }
+            }
         }
     }
 

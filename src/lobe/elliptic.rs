@@ -2,7 +2,8 @@
 
 use std::f32::consts::{PI, TAU};
 
-use super::vector::{Sym2, V3, dot, invert, quadratic, tangents, unit};
+use super::intensity::phong_half;
+use super::vector::{Sym2, V3, at_least, cross, dot, invert, quadratic, sandwich, tangents, unit};
 use super::{Facet, Slopes, Spread, vector};
 use crate::geometry::elementary::{exp32, ln_1p32};
 
@@ -109,6 +110,37 @@ impl Spread for EllipticLobe {
         // With 1 / (h·pole)⁴ of a unit h, (1 + t)².
         let fall = exp32(fall + 2.0 * ln_1p32(t));
         if cosine > 0.0 { self.peak * fall } else { 0.0 }
+    }
+
+    /// Phong's highlight. The base lobe's own part of the spread is round about the mirrored direction; the rest is
+    /// of normals, whose mirrored directions are spread less across the plane of incidence than along it, by the
+    /// cosine of incidence.
+    fn phong(&self, half: V3, light: V3, view: V3) -> f32 {
+        let Facet { axis, .. } = self.facet();
+        let (half, seen) = phong_half(axis, half, light, view);
+        if !seen {
+            return 0.0;
+        }
+        let Profile::Student { exponent } = self.profile else { return self.density(half) };
+        // A step across the plane of incidence, as slopes about the pole.
+        let across = cross(light, axis);
+        let (to_pole, up) = (dot(axis, self.pole), dot(across, self.pole));
+        let step =
+            [self.tangent, self.bitangent].map(|t| dot(across, t) * to_pole - dot(axis, t) * up);
+        let length = (step[0] * step[0] + step[1] * step[1]).sqrt();
+        if length <= 1e-6 {
+            return self.density(half);
+        }
+        let [x, y] = step.map(|c| c / length);
+        let narrow = 1.0 - dot(light, axis);
+        let squeeze = [1.0 - narrow * x * x, -narrow * x * y, 1.0 - narrow * y * y];
+        let own = 1.0 / exponent;
+        let [xx, xy, yy] = self.spread;
+        let [xx, xy, yy] = sandwich(squeeze, [xx - own, xy, yy - own]);
+        let spread = at_least([xx + own, xy, yy + own], 1e-3 * own);
+        let (inverse, determinant) = invert(spread);
+        let peak = self.peak * (invert(self.spread).1 / determinant).sqrt();
+        Self { spread, inverse, peak, ..*self }.density(half)
     }
 
     fn slopes(&self) -> Slopes {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Slopes;
+use super::intensity::{Fresnel, groove, phong_half};
 use super::vector::{Sym2, V3, dot, quadratic};
 
 /// What a lobe's density means for the light that leaves the surface.
@@ -14,11 +15,16 @@ use super::vector::{Sym2, V3, dot, quadratic};
 /// |---|---|
 /// | `ndf` | E · D(h) |
 /// | `microfacet` | E · D(h) · G₁(l) G₁(v) / (4 n·v), 0 unless n·l > 0 and n·v > 0 |
+/// | `phong` | E · D(h′), h′ as far from n as makes cosˢ of it (r·v)^(s/4), r the mirrored direction; 0 unless n·l > 0 |
+/// | `torrance-sparrow` | E · D(h) · G F / (4 n·v), 0 unless n·l > 0 and n·v > 0 |
 ///
 /// `ndf` is what the five papers draw: the distribution itself at the half vector. `microfacet` is
 /// the reflection model (Cook-Torrance 1982, Walter et al. 2007) with separable Smith shadowing and
-/// Fresnel 1; the cosine to the light is cancelled by the model's own denominator.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+/// Fresnel 1; the cosine to the light is cancelled by the model's own denominator. `phong` is Phong's highlight
+/// (1975) about the mirrored direction, without ambient and diffuse light, as high as the `ndf` of the same lobe.
+/// `torrance-sparrow` is the model of Blinn 1977, with grooves instead of Smith's shadowing; see
+/// [`crate::lobe::intensity`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shading {
     /// The bare distribution at the half vector.
@@ -26,6 +32,27 @@ pub enum Shading {
     Ndf,
     /// A microfacet BRDF about the lobe's axis.
     Microfacet,
+    /// Phong 1975: a highlight about the mirrored direction.
+    Phong,
+    /// Blinn 1977 after Torrance and Sparrow 1967: facets in V-shaped grooves.
+    TorranceSparrow(Fresnel),
+}
+
+impl Shading {
+    /// Its name in specs and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ndf => "ndf",
+            Self::Microfacet => "microfacet",
+            Self::Phong => "phong",
+            Self::TorranceSparrow(_) => "torrance-sparrow",
+        }
+    }
+
+    /// Whether it looks at the directions to light and eye, and not at the half vector alone.
+    pub fn needs_directions(self) -> bool {
+        self != Self::Ndf
+    }
 }
 
 /// A spread of normals: what every lobe can do.
@@ -49,7 +76,22 @@ pub trait Spread {
         match shading {
             Shading::Ndf => density,
             Shading::Microfacet => density * self.facet().geometry(light, view),
+            Shading::Phong => self.phong(half, light, view),
+            Shading::TorranceSparrow(fresnel) => {
+                let cosine = dot(light, half) / dot(half, half).sqrt().max(f32::MIN_POSITIVE);
+                let open = groove(self.facet().axis, half, light, view);
+                density * open * fresnel.reflectance(cosine)
+            }
         }
+    }
+
+    /// Phong's highlight of a lobe that is as wide in all directions as if it were a base lobe's: its density at
+    /// [`phong_half`].
+    #[inline(always)]
+    fn phong(&self, half: V3, light: V3, view: V3) -> f32 {
+        let (half, seen) = phong_half(self.facet().axis, half, light, view);
+        let density = self.density(half);
+        if seen { density } else { 0.0 }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::vector::V3;
 use super::{
-    EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, Shading, Slopes, Spread,
+    EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, SampledLobe, Shading,
+    Slopes, Spread,
 };
 
 /// The most lobes a surface from a file may have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2
@@ -10,7 +11,7 @@ use super::{
 pub const CAPACITY: usize = 12 * 4 * 2 + 1;
 
 /// Any lobe, its amplitude included.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Lobe {
     /// A slope lobe: base lobes, and the normalised form of the one-lobe methods.
     Elliptic(EllipticLobe),
@@ -20,6 +21,8 @@ pub enum Lobe {
     Pedal(PedalLobe),
     /// Olano and North's lobe as printed.
     Restricted(RestrictedLobe),
+    /// A surface's own NDF, an image.
+    Sampled(SampledLobe),
 }
 
 impl Lobe {
@@ -32,6 +35,7 @@ impl Lobe {
             }
             Self::Pedal(lobe) => Self::Pedal(lobe.faded(factor)),
             Self::Restricted(lobe) => Self::Restricted(lobe.faded(factor)),
+            Self::Sampled(lobe) => Self::Sampled(lobe.faded(factor)),
         }
     }
 
@@ -48,6 +52,7 @@ impl Spread for Lobe {
             Self::Peak(lobe) => lobe.density(h),
             Self::Pedal(lobe) => lobe.density(h),
             Self::Restricted(lobe) => lobe.density(h),
+            Self::Sampled(lobe) => lobe.density(h),
         }
     }
 
@@ -57,6 +62,7 @@ impl Spread for Lobe {
             Self::Peak(lobe) => lobe.facet(),
             Self::Pedal(lobe) => lobe.facet(),
             Self::Restricted(lobe) => lobe.facet(),
+            Self::Sampled(lobe) => lobe.facet(),
         }
     }
 
@@ -66,6 +72,7 @@ impl Spread for Lobe {
             Self::Peak(lobe) => lobe.slopes(),
             Self::Pedal(lobe) => lobe.slopes(),
             Self::Restricted(lobe) => lobe.slopes(),
+            Self::Sampled(lobe) => lobe.slopes(),
         }
     }
 }
@@ -79,7 +86,13 @@ macro_rules! lobe_from {
         }
     )*};
 }
-lobe_from!(Elliptic(EllipticLobe), Peak(PhongPeak), Pedal(PedalLobe), Restricted(RestrictedLobe));
+lobe_from!(
+    Elliptic(EllipticLobe),
+    Peak(PhongPeak),
+    Pedal(PedalLobe),
+    Restricted(RestrictedLobe),
+    Sampled(SampledLobe)
+);
 
 /// What a filter makes of a footprint: lobes whose densities add. Lobes may have
 /// horizons, which matter to the light they send ([`MultipleSurface::radiance`]) but not to what they

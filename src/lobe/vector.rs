@@ -59,6 +59,14 @@ pub fn times(m: Sym2, s: f32) -> Sym2 {
     [m[0] * s, m[1] * s, m[2] * s]
 }
 
+/// C M C of two symmetric matrices.
+#[inline(always)]
+pub fn sandwich([a, b, c]: Sym2, [x, y, z]: Sym2) -> Sym2 {
+    // C M, row by row.
+    let (top, bottom) = ([a * x + b * y, a * y + b * z], [b * x + c * y, b * y + c * z]);
+    [top[0] * a + top[1] * b, top[0] * b + top[1] * c, bottom[0] * b + bottom[1] * c]
+}
+
 /// xᵀ M x
 #[inline(always)]
 pub fn quadratic(m: Sym2, x: f32, y: f32) -> f32 {

@@ -1,7 +1,7 @@
 //! Many shading points at once, in structure-of-arrays form.
 
 use crate::lobe::vector::V3;
-use crate::texture::{Footprint, Lookup};
+use crate::texture::{Bend, Footprint, Lookup};
 
 /// Lanes in a batch: a few kilobytes an axis, so that a batch stays in the first-level cache.
 pub const BATCH: usize = 128;
@@ -26,6 +26,8 @@ pub struct Batch {
     pub jacobian: [Lane; 4],
     /// How what lies under the footprints is averaged.
     pub lookup: Lookup,
+    /// What becomes of the map's slopes; None if they are slopes on the surface.
+    pub bends: Option<Bends>,
     /// Direction of the half vector; any length.
     pub half: [Lane; 3],
     /// Unit direction to the light; unset for [`crate::lobe::Shading::Ndf`] where the method does not
@@ -38,6 +40,31 @@ pub struct Batch {
     pub irradiance: Lane,
 }
 
+/// [`Bend`]s of a batch's points.
+#[derive(Clone, Debug)]
+pub struct Bends {
+    /// Their matrices, row by row.
+    pub matrix: [Lane; 4],
+    /// Whether they keep angles, all of them or none.
+    pub keeps_angle: bool,
+}
+
+impl Bends {
+    /// That of lane `i`.
+    #[inline(always)]
+    pub fn at(&self, i: usize) -> Bend {
+        let [a, b, c, d] = &self.matrix;
+        Bend { matrix: [a[i], b[i], c[i], d[i]], keeps_angle: self.keeps_angle }
+    }
+
+    /// Turns the normals of all lanes, given coordinate by coordinate.
+    pub fn turn(&self, [x, y, z]: [&mut Lane; 3]) {
+        for i in 0..BATCH {
+            [x[i], y[i], z[i]] = self.at(i).turn([x[i], y[i], z[i]]);
+        }
+    }
+}
+
 impl Default for Batch {
     fn default() -> Self {
         let up = [[0.0; BATCH], [0.0; BATCH], [1.0; BATCH]];
@@ -47,6 +74,7 @@ impl Default for Batch {
             v: [0.0; BATCH],
             jacobian: [[0.0; BATCH]; 4],
             lookup: Lookup::default(),
+            bends: None,
             half: up,
             light: up,
             view: up,
@@ -61,7 +89,14 @@ impl Batch {
     pub fn footprint(&self, i: usize) -> Footprint {
         let [ux, vx, uy, vy] = &self.jacobian;
         let (along_x, along_y) = ([ux[i], vx[i]], [uy[i], vy[i]]);
-        Footprint { u: self.u[i], v: self.v[i], along_x, along_y, lookup: self.lookup }
+        let bend = self.bend(i);
+        Footprint { u: self.u[i], v: self.v[i], along_x, along_y, lookup: self.lookup, bend }
+    }
+
+    /// What becomes of the map's slopes at lane `i`.
+    #[inline(always)]
+    pub fn bend(&self, i: usize) -> Bend {
+        self.bends.as_ref().map_or_else(Bend::default, |bends| bends.at(i))
     }
 
     /// Direction of lane `i`'s half vector.

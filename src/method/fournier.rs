@@ -101,6 +101,7 @@ const CARD: Card = Card {
              mode is less close where normals lie near the horizon; Blinn-Phong base lobes only",
     normalised: true,
     keeps_roughness: true,
+    fractal: false,
     precision: 0.05,
 };
 

@@ -30,6 +30,7 @@ const CARD: Card = Card {
     limits: "one lobe; a steep normal's lobe is not an ellipse in the surface's slopes",
     normalised: true,
     keeps_roughness: true,
+    fractal: false,
     precision: 1e-3,
 };
 

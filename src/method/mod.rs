@@ -8,6 +8,7 @@ mod averaged;
 mod batch;
 mod constant;
 pub mod fournier;
+pub mod kautz;
 mod lean;
 mod mean_normal;
 mod nearness;
@@ -20,7 +21,7 @@ mod toksvig;
 mod truth;
 mod unfiltered;
 
-pub use batch::{BATCH, Batch, Lane};
+pub use batch::{BATCH, Batch, Bends, Lane};
 pub use constant::Constant;
 pub use mean_normal::MeanNormals;
 pub use registry::{Entry, brute_force, build, entries, find};
@@ -48,6 +49,9 @@ pub struct Card {
     pub normalised: bool,
     /// Whether bumps that fall into one footprint widen its lobes.
     pub keeps_roughness: bool,
+    /// Whether it takes bumps to go on below the map's texels, so that even a single normal is as rough as the whole
+    /// map; else, where a footprint holds a single normal, it is the base lobe.
+    pub fractal: bool,
     /// How exactly its numbers hold what it claims (energy, variance), as a relative error: rounding
     /// for closed forms, the stopping rule for fits.
     pub precision: f64,
@@ -107,6 +111,12 @@ pub trait Method: Send + Sync + std::fmt::Debug {
     /// The lookups it can be used with; none if it looks at no footprint. All of them unless said otherwise.
     fn lookups(&self) -> &'static [Lookup] {
         &Lookup::ALL
+    }
+
+    /// Whether it can be used where the surface bends the map's slopes ([`Footprint::bend`]); a method that
+    /// spreads normals would have to carry their spread along too.
+    fn bends(&self) -> bool {
+        false
     }
 
     /// Whether it looks at the heights a map's normals are of ([`NormalMap::heights`]). Where there are

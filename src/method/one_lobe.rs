@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{BATCH, Batch, Lane, Prefiltered};
+use super::{BATCH, Batch, Lane, Prefiltered, shade_by_lobes};
 use crate::geometry::{Kernel, vectorised};
-use crate::lobe::{BaseLobe, Lobe, MultipleSurface, Shading, Spread};
-use crate::texture::{Footprint, Lookup, Moments, NormalMap, Pyramid};
+use crate::lobe::{BaseLobe, EllipticLobe, Lobe, MultipleSurface, Shading, Spread};
+use crate::texture::{Bend, Footprint, Lookup, Moments, NormalMap, Pyramid};
 
 /// A one-lobe method's two formulas: texel → channels ([`Moments::encode`]), and averaged channels →
 /// lobe.
@@ -15,6 +15,15 @@ pub(super) trait OneLobe<const C: usize>: Moments<C> {
 
     /// The lobe of averaged channels.
     fn lobe(&self, channels: [f32; C]) -> Self::Lobe;
+
+    /// The channels where the surface bends the map's slopes: of a method that [`Method::bends`].
+    ///
+    /// [`Method::bends`]: super::Method::bends
+    #[inline(always)]
+    fn bent(&self, channels: [f32; C], bend: &Bend) -> [f32; C] {
+        let _ = bend;
+        channels
+    }
 }
 
 /// A normal map with a pyramid of moments beside it.
@@ -37,16 +46,11 @@ pub(super) fn filtered_share(level: f32, lookup: Lookup) -> f32 {
     if lookup == Lookup::Exact { 1.0 } else { (1.0 + level).clamp(0.0, 1.0) }
 }
 
-/// The unfiltered lobe at a point: the base lobe about the interpolated normal.
+/// The unfiltered lobe at a footprint's centre: the base lobe about the interpolated normal.
 #[inline(always)]
-pub(super) fn unfiltered_lobe(
-    map: &NormalMap,
-    base: &BaseLobe,
-    u: f32,
-    v: f32,
-) -> crate::lobe::EllipticLobe {
-    let [x, y, z, weight] = map.sample(u, v);
-    base.about([x, y, z], weight)
+pub(super) fn unfiltered_lobe(map: &NormalMap, base: &BaseLobe, at: &Footprint) -> EllipticLobe {
+    let [x, y, z, weight] = map.sample(at.u, at.v);
+    base.about(at.bend.turn([x, y, z]), weight)
 }
 
 impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
@@ -59,20 +63,32 @@ impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
         let share = filtered_share(level, at.lookup);
         let mut surface = MultipleSurface::new();
         if share > 0.0 {
-            let found = self.pyramid.fetch(&self.map, at);
-            surface.add(self.pyramid.moments().lobe(found), share);
+            let moments = self.pyramid.moments();
+            let found = moments.bent(self.pyramid.fetch(&self.map, at), &at.bend);
+            surface.add(moments.lobe(found), share);
         }
-        surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0 - share);
+        surface.add(unfiltered_lobe(&self.map, &self.base, at), 1.0 - share);
         surface
     }
 
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        if !matches!(shading, Shading::Ndf | Shading::Microfacet) {
+            return shade_by_lobes(self, batch, shading, radiance);
+        }
         let (mut channels, mut share) = ([[0.0; BATCH]; C], [1.0; BATCH]);
         vectorised(Fetch { of: self, batch, channels: &mut channels, share: &mut share });
+        if let Some(bends) = &batch.bends {
+            let moments = self.pyramid.moments();
+            for i in 0..batch.len {
+                let bent = moments.bent(std::array::from_fn(|c| channels[c][i]), &bends.at(i));
+                (0..C).for_each(|c| channels[c][i] = bent[c]);
+            }
+        }
         let fetched = Fetched { of: self, batch, channels: &channels, share: &share };
-        match shading {
-            Shading::Ndf => vectorised(Shade::<M, C, false> { fetched, radiance }),
-            Shading::Microfacet => vectorised(Shade::<M, C, true> { fetched, radiance }),
+        if shading == Shading::Ndf {
+            vectorised(Shade::<M, C, false> { fetched, radiance });
+        } else {
+            vectorised(Shade::<M, C, true> { fetched, radiance });
         }
     }
 }
@@ -140,7 +156,7 @@ impl<M: OneLobe<C>, const C: usize, const MICROFACET: bool> Kernel for Shade<'_,
             radiance[i] = if batch.irradiance[i] > 0.0 { sent } else { 0.0 };
         }
         for i in (0..batch.len).filter(|&i| share[i] < 1.0) {
-            let lobe = unfiltered_lobe(&of.map, &of.base, batch.u[i], batch.v[i]);
+            let lobe = unfiltered_lobe(&of.map, &of.base, &batch.footprint(i));
             let bare = batch.irradiance[i]
                 * lobe.radiance(shading, batch.half(i), batch.light(i), batch.view(i));
             radiance[i] = share[i] * radiance[i] + (1.0 - share[i]) * bare;

@@ -1,6 +1,8 @@
 //! The list of methods. A new one is a file and a line here.
 
-use super::{Card, Method, averaged, fournier, lean, olano_north, schilling, toksvig, unfiltered};
+use super::{
+    Card, Method, averaged, fournier, kautz, lean, olano_north, schilling, toksvig, unfiltered,
+};
 use crate::parameter::{Parameter, Values};
 
 /// A method the program knows: what it is, what it takes, how to make one.
@@ -18,7 +20,7 @@ pub fn entries() -> Vec<Entry> {
     let mut all = vec![unfiltered::entry(), averaged::entry(), fournier::entry()];
     all.extend(schilling::entries());
     all.extend(olano_north::entries());
-    all.extend([toksvig::entry(), lean::entry()]);
+    all.extend([kautz::entry(), toksvig::entry(), lean::entry()]);
     all
 }
 

@@ -28,6 +28,7 @@ const CARD: Card = Card {
     limits: "one round lobe: directional bumps blur to both sides, two peaks become one broad hill",
     normalised: true,
     keeps_roughness: true,
+    fractal: false,
     precision: 1e-3,
 };
 

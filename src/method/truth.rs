@@ -80,7 +80,8 @@ impl ReliefMap {
         let size = [self.map.width() as f64, self.map.height() as f64];
         let at = [f64::from(u) * size[0], f64::from(v) * size[1]];
         if self.through == Truth::Masked {
-            return (unfiltered_lobe(&self.map, &self.base, u, v), at);
+            let here = Footprint { u, v, ..Footprint::default() };
+            return (unfiltered_lobe(&self.map, &self.base, &here), at);
         }
         let seen = self.relief.seen_at(at, view);
         let fold = |axis: usize| self.map.wrap().fold(seen[axis] / size[axis]) as f32;
@@ -105,7 +106,7 @@ impl Prefiltered for ReliefMap {
     /// The bumps' own, whatever hides them.
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let mut surface = MultipleSurface::new();
-        surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0);
+        surface.add(unfiltered_lobe(&self.map, &self.base, at), 1.0);
         surface
     }
 

@@ -9,7 +9,7 @@ use super::{
 use crate::geometry::{Kernel, vectorised};
 use crate::lobe::round::{Beckmann, Ggx, Phong, RoundLobe};
 use crate::lobe::vector::{dot, tan_squared};
-use crate::lobe::{BaseLobe, Horizon, MultipleSurface, Shading};
+use crate::lobe::{BaseLobe, Horizon, MultipleSurface, Shading, Spread};
 use crate::parameter::{Domain, Parameter};
 use crate::texture::{Footprint, HorizonMap, Lookup, NormalMap, Wrap};
 
@@ -33,6 +33,7 @@ const CARD: Card = Card {
     limits: "aliases: a pixel sees one normal of the many it covers",
     normalised: true,
     keeps_roughness: false,
+    fractal: false,
     precision: 1e-3,
 };
 
@@ -69,6 +70,10 @@ impl Method for Unfiltered {
         self.shadowed
     }
 
+    fn bends(&self) -> bool {
+        !self.shadowed
+    }
+
     fn prefilter(
         &self,
         map: &Arc<NormalMap>,
@@ -100,16 +105,33 @@ impl Prefiltered for UnfilteredMap {
 
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let mut surface = MultipleSurface::new();
-        surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0);
+        surface.add(unfiltered_lobe(&self.map, &self.base, at), 1.0);
         surface
     }
 
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        if !matches!(shading, Shading::Ndf | Shading::Microfacet) {
+            return self.shade_by_lobe(batch, shading, radiance);
+        }
         let of = Of { map: &self.map, batch, radiance };
         match self.base {
             BaseLobe::BlinnPhong { exponent } => of.shade(shading, Phong::new(exponent)),
             BaseLobe::Beckmann { alpha } => of.shade(shading, Beckmann::new(alpha)),
             BaseLobe::Ggx { alpha } => of.shade(shading, Ggx::new(alpha)),
+        }
+    }
+}
+
+impl UnfilteredMap {
+    /// Lane by lane, for shadings that have no kernel.
+    fn shade_by_lobe(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
+        for (i, out) in radiance.iter_mut().enumerate().take(batch.len) {
+            *out = 0.0;
+            if batch.irradiance[i] > 0.0 {
+                let lobe = unfiltered_lobe(&self.map, &self.base, &batch.footprint(i));
+                let (half, light, view) = (batch.half(i), batch.light(i), batch.view(i));
+                *out = batch.irradiance[i] * lobe.radiance(shading, half, light, view);
+            }
         }
     }
 }
@@ -143,7 +165,7 @@ impl Prefiltered for ShadowedMap {
     fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
         let UnfilteredMap { map, base } = &self.unfiltered;
         let mut surface = MultipleSurface::new();
-        let lobe = unfiltered_lobe(map, base, at.u, at.v);
+        let lobe = unfiltered_lobe(map, base, at);
         surface.add_behind(lobe, 1.0, self.horizon(at.u, at.v), 1.0);
         surface
     }
@@ -167,15 +189,11 @@ struct Of<'a> {
 impl Of<'_> {
     /// Decides once what the loop need not ask at every lane.
     fn shade<B: RoundLobe>(self, shading: Shading, base: B) {
-        match (shading, self.map.wrap()) {
-            (Shading::Ndf, Wrap::Repeat) => vectorised(Bare::<B, false, true> { of: self, base }),
-            (Shading::Ndf, Wrap::Clamp) => vectorised(Bare::<B, false, false> { of: self, base }),
-            (Shading::Microfacet, Wrap::Repeat) => {
-                vectorised(Bare::<B, true, true> { of: self, base });
-            }
-            (Shading::Microfacet, Wrap::Clamp) => {
-                vectorised(Bare::<B, true, false> { of: self, base });
-            }
+        match (shading == Shading::Ndf, self.map.wrap()) {
+            (true, Wrap::Repeat) => vectorised(Bare::<B, false, true> { of: self, base }),
+            (true, Wrap::Clamp) => vectorised(Bare::<B, false, false> { of: self, base }),
+            (false, Wrap::Repeat) => vectorised(Bare::<B, true, true> { of: self, base }),
+            (false, Wrap::Clamp) => vectorised(Bare::<B, true, false> { of: self, base }),
         }
     }
 }
@@ -197,6 +215,10 @@ impl<B: RoundLobe, const MICROFACET: bool, const REPEAT: bool> Kernel
         let Of { map, batch, radiance } = self.of;
         let mut normals = [[0.0; BATCH]; 4];
         map.sample_lanes::<BATCH, REPEAT>(&batch.u, &batch.v, &mut normals);
+        if let Some(bends) = &batch.bends {
+            let [x, y, z, _] = &mut normals;
+            bends.turn([x, y, z]);
+        }
         let [x, y, z, weight] = &normals;
         for i in 0..BATCH {
             let n = [x[i], y[i], z[i]];

@@ -1,16 +1,27 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
+mod analytic;
 mod bricks;
 mod brushed;
 mod corrugated;
 mod cylinders;
+mod depth;
 pub mod file;
 mod flat;
+mod fourier;
 mod gaussian;
+mod glyphs;
 mod grid;
 mod hemispheres;
+mod letters;
+mod mound;
+mod polynomial;
 mod relief;
+mod ripple;
+mod rivets;
+mod round_letters;
 mod spectrum;
+mod synthesised;
 mod twill;
 mod view;
 mod waves;
@@ -19,6 +30,7 @@ mod wavy_sphere;
 pub use crate::parameter::Card;
 use crate::parameter::{Parameter, Values};
 use crate::texture::{HeightMap, NormalMap};
+pub use synthesised::square_cells;
 
 /// A pattern the program knows.
 pub struct Entry {
@@ -52,9 +64,17 @@ pub fn entries() -> Vec<Entry> {
         twill::ENTRY,
         grid::ENTRY,
         bricks::ENTRY,
+        letters::ENTRY,
+        rivets::ENTRY,
+        round_letters::ENTRY,
+        polynomial::ENTRY,
+        fourier::ENTRY,
+        mound::ENTRY,
+        ripple::ENTRY,
         waves::ENTRY,
         gaussian::ENTRY,
         brushed::ENTRY,
+        synthesised::ENTRY,
         wavy_sphere::ENTRY,
     ]
 }

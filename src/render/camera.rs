@@ -1,6 +1,6 @@
 //! The pinhole camera.
 
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, turned};
 
 /// A pinhole camera. Image coordinates are in pixels, x to the right and y *down* from the top left
 /// corner; pixel (i, j) covers [i, i+1] × [j, j+1].
@@ -51,6 +51,14 @@ impl Camera {
     ) -> Self {
         let origin = direction(elevation, azimuth) * distance;
         Self::look_at(origin, Vec3::zeros(), fov_degrees, width, height)
+    }
+
+    /// This camera moved round the vertical through the origin, by degrees from +x towards +y, what it looks at
+    /// with it.
+    pub fn turned(&self, degrees: f64) -> Self {
+        let [origin, corner, right, down] =
+            [self.origin, self.corner, self.right, self.down].map(|v| turned(v, degrees));
+        Self { origin, corner, right, down, ..*self }
     }
 
     /// Where it is, world space.

@@ -27,7 +27,7 @@ pub fn true_distribution(
         .filter_map(|[dx, dy]| view.footprint(x + dx, y + dy))
         .map(|at| {
             let [x, y, z, weight] = map.sample(at.u, at.v);
-            base.about([x, y, z], weight)
+            base.about(at.bend.turn([x, y, z]), weight)
         })
         .collect();
     let density = |h: [f32; 3]| {

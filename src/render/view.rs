@@ -3,7 +3,7 @@
 use crate::geometry::{Frame, Kernel, Vec3, vectorised};
 use crate::light::Light;
 use crate::lobe::Shading;
-use crate::method::{BATCH, Batch};
+use crate::method::{BATCH, Batch, Bends};
 use crate::surface::{Hit, Shape, Surface, displacement};
 use crate::texture::{Footprint, Lookup, Wrap};
 
@@ -43,7 +43,8 @@ impl View {
             hit.gradient.map(|g| held(g.dot(&moved)))
         });
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
-        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup };
+        let bend = self.surface.bend(&hit).unwrap_or_default();
+        let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup, bend };
         Some(Sight { footprint, frame: hit.frame, view: -ray.normalize() })
     }
 
@@ -64,12 +65,29 @@ impl View {
         batch.len = len;
         batch.lookup = self.lookup;
         let points = Points { view: self, x, y, spacing: spacing.unwrap_or(0.0), batch };
-        match (directions || self.shading == Shading::Microfacet, spacing) {
+        match (directions || self.shading.needs_directions(), spacing) {
             (false, None) => points.fill::<false, false>(),
             (false, Some(_)) => points.fill::<false, true>(),
             (true, None) => points.fill::<true, false>(),
             (true, Some(_)) => points.fill::<true, true>(),
         }
+        batch.bends = self.bends(x, y, len);
+    }
+
+    /// What becomes of the map's slopes at image points; None where they are slopes on the surface. Only then are
+    /// the points traced once more.
+    fn bends(&self, x: &[f64; BATCH], y: &[f64; BATCH], len: usize) -> Option<Bends> {
+        let of = |i: usize| {
+            let (hit, _) = self.surface.trace(self.camera.origin(), self.camera.ray(x[i], y[i]));
+            self.surface.bend(&hit)
+        };
+        let keeps_angle = of(0)?.keeps_angle;
+        let mut bends = Bends { matrix: [[0.0; BATCH]; 4], keeps_angle };
+        for i in 0..len {
+            let matrix = of(i)?.matrix;
+            (0..4).for_each(|k| bends.matrix[k][i] = matrix[k]);
+        }
+        Some(bends)
     }
 }
 

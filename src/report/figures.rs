@@ -62,7 +62,6 @@ impl Figures {
     pub fn of(results: &Results) -> Self {
         let comparison = Comparison::of(results);
         let settings = comparison.settings.iter().enumerate();
-        let picture = |t: &TextureInfo| t.picture.as_ref().map(|p| data_uri(&png::exact(p)));
         Self {
             overall: overall(&comparison),
             settings: settings.map(|(i, s)| setting_figures(&comparison, s, i + 1)).collect(),
@@ -72,7 +71,7 @@ impl Figures {
                 .par_iter()
                 .map(|scene| scene_figures(results, scene, comparison.spp))
                 .collect(),
-            textures: results.textures.iter().map(picture).collect(),
+            textures: results.textures.iter().map(texture_picture).collect(),
         }
     }
 
@@ -83,6 +82,11 @@ impl Figures {
         let all = self.overall.iter().chain(settings).chain(scenes);
         all.map(|figure| (figure.file.as_str(), figure.png.as_slice()))
     }
+}
+
+/// A texture's picture as a page holds it.
+pub fn texture_picture(texture: &TextureInfo) -> Option<String> {
+    texture.picture.as_ref().map(|picture| data_uri(&png::exact(picture)))
 }
 
 fn overall(comparison: &Comparison) -> Option<Figure> {

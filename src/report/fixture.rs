@@ -4,6 +4,8 @@
 use std::sync::Arc;
 
 use crate::experiment::results::*;
+use crate::experiment::sequence::sequences;
+use crate::experiment::spec::{MotionKind, MotionSpec};
 use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::method::Truth;
@@ -39,7 +41,37 @@ pub fn results() -> Results {
         methods: METHODS.iter().map(method).collect(),
         textures: TEXTURES.iter().map(|name| texture(name)).collect(),
         scenes: scenes.collect(),
+        motion: None,
+        sequences: Vec::new(),
     }
+}
+
+/// The same things in six frames: the first texture and scale, its highlight wandering, each method's ripple with
+/// or against it.
+pub fn moving() -> Results {
+    let mut results = results();
+    let still = results.scenes[0].clone();
+    let frame = |number: u32| {
+        let mut scene = still.clone();
+        scene.key.frame = Some(number + 1);
+        scene.slug = format!("{}-f{:03}", still.slug, number + 1);
+        let moved = |film: &Film, by: usize| {
+            let turned = film.pixels().chunks(SIDE).flat_map(|row| {
+                row.iter().cycle().skip(SIDE - by).take(SIDE).copied().collect::<Vec<_>>()
+            });
+            Arc::new(Film::new(SIDE, SIDE, turned.collect()))
+        };
+        scene.reference.film = moved(&scene.reference.film, number as usize);
+        for (i, trial) in scene.trials.iter_mut().enumerate() {
+            trial.film = moved(&trial.film, number as usize * (1 + i % 3) / 2);
+        }
+        scene
+    };
+    results.scenes = (0..6).map(frame).collect();
+    results.motion =
+        Some(MotionSpec { kind: MotionKind::Rotate { degrees: 30.0 }, frames: 6, fps: 10 });
+    results.sequences = sequences(&results.scenes);
+    results
 }
 
 /// Costs to go with [`results`].
@@ -107,7 +139,14 @@ fn scene(t: usize, texture: &str, scale: f64) -> SceneResult {
     SceneResult {
         key: key(texture, scale),
         slug: format!("{texture}-{scale}"),
-        reference: Reference { film, spp: 4096, rmse: 0.0004, truth: Truth::Bumps },
+        sequence: format!("{texture}-{scale}"),
+        reference: Reference {
+            film,
+            spp: 4096,
+            rmse: 0.0004,
+            mean_error: 0.0002,
+            truth: Truth::Bumps,
+        },
         trials: trials.collect(),
         refusals: METHODS.iter().filter(|m| refused(m.0)).map(|m| refusal(m.0)).collect(),
         probes: if scale == 16.0 && t == 0 { vec![probe()] } else { vec![] },
@@ -125,6 +164,7 @@ fn key(texture: &str, scale: f64) -> SceneKey {
         texels_per_pixel: scale,
         distance: scale * 2.5,
         elevation: 40.0,
+        frame: None,
     }
 }
 

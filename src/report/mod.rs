@@ -5,7 +5,9 @@
 //! |---|---|---|
 //! | `report.md`, `report.html` | the answer, tables, figures, method cards | yes |
 //! | `metrics.csv`, `metrics.json` | one row a trial and metric | yes |
+//! | `flicker.csv` | of things that move: one row a method and figure of flicker | yes |
 //! | `plots/*.png`, `images/*.png` | what the reports show | yes |
+//! | `animations/*.png`, `frames/*.png` | of things that move: animated PNG files, and one file a frame | yes |
 //! | `costs.csv`, `costs.md` | times and memory | no |
 //!
 //! [`write_evidence`] does the same for what was found about a paper.
@@ -31,6 +33,7 @@ mod font;
 mod grid;
 mod lobe_sheet;
 mod mark;
+mod motion;
 mod page;
 mod phrase;
 mod png;
@@ -68,8 +71,20 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
     let mut folder = files::Folder::create(out)?;
     folder.put("metrics.csv", &tidy::csv(results))?;
     folder.put("metrics.json", &tidy::json(results))?;
+    if !results.sequences.is_empty() {
+        folder.put("flicker.csv", &motion::csv::csv(results))?;
+    }
     folder.put("costs.csv", &costs::csv(costs))?;
     folder.put("costs.md", costs::markdown(results, costs).as_bytes())?;
+    if !results.sequences.is_empty() {
+        let page = motion::page::Page::of(results);
+        for (name, bytes) in page.files() {
+            folder.put(&name, bytes)?;
+        }
+        folder.put("report.md", motion::page::markdown(&page).as_bytes())?;
+        folder.put("report.html", motion::page::html(&page).as_bytes())?;
+        return Ok(folder.written());
+    }
     let figures = figures::Figures::of(results);
     for (name, png) in figures.files() {
         folder.put(name, png)?;
@@ -82,7 +97,11 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
 
 /// The answer in words, a short paragraph each: what a report opens with.
 pub fn lead(results: &Results) -> Vec<String> {
-    answer::answer(&contest::Comparison::of(results))
+    if results.sequences.is_empty() {
+        answer::answer(&contest::Comparison::of(results))
+    } else {
+        motion::page::lead(results)
+    }
 }
 
 #[cfg(test)]
@@ -91,9 +110,14 @@ mod tests {
 
     #[test]
     fn the_same_results_give_the_same_bytes() {
-        let (results, costs) = (fixture::results(), fixture::costs());
+        same_bytes(&fixture::results());
+        same_bytes(&fixture::moving());
+    }
+
+    fn same_bytes(results: &Results) {
+        let costs = fixture::costs();
         let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
-        let [one, two] = folders.each_ref().map(|f| write(&results, &costs, f.path()).unwrap());
+        let [one, two] = folders.each_ref().map(|f| write(results, &costs, f.path()).unwrap());
         assert_eq!(one.len(), two.len());
         for (a, b) in one.iter().zip(&two) {
             assert_eq!(a.file_name(), b.file_name());

@@ -49,7 +49,7 @@ struct SettingTables {
 
 /// A word and what it means.
 #[derive(Serialize)]
-struct Definition<'a> {
+pub struct Definition<'a> {
     word: &'a str,
     meaning: String,
 }
@@ -91,13 +91,15 @@ impl<'a> Page<'a> {
     }
 }
 
-fn shadings(results: &Results) -> Vec<Definition<'_>> {
+/// The shadings that scenes use.
+pub fn shadings(results: &Results) -> Vec<Definition<'_>> {
     let names = unique(results.scenes.iter().map(|s| s.key.shading.as_str()));
     let define = |word| Definition { word, meaning: words::shading_formula(word).into() };
     names.into_iter().map(define).collect()
 }
 
-fn metrics(results: &Results) -> Vec<Definition<'_>> {
+/// The metrics that trials were scored by.
+pub fn metrics(results: &Results) -> Vec<Definition<'_>> {
     let scores = results.scenes.iter().flat_map(|s| &s.trials).flat_map(|t| &t.scores);
     let probed = results.scenes.iter().any(|s| !s.probes.is_empty()).then_some("ndf_l1");
     let names = unique(scores.map(|s| s.metric.as_str()).chain(probed));

@@ -3,12 +3,16 @@
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 10] = [
+const TEMPLATES: [(&str, &str); 14] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
     ("report.md", include_str!("templates/report.md")),
     ("report.html", include_str!("templates/report.html")),
+    ("cards.md", include_str!("templates/cards.md")),
+    ("cards.html", include_str!("templates/cards.html")),
+    ("motion.md", include_str!("templates/motion.md")),
+    ("motion.html", include_str!("templates/motion.html")),
     ("evidence.md", include_str!("templates/evidence.md")),
     ("evidence.html", include_str!("templates/evidence.html")),
     ("style.css", include_str!("templates/style.css")),

@@ -5,9 +5,11 @@ use serde::Serialize;
 use crate::experiment::results::{
     MethodInfo, Peak, Probe, RefusalInfo, Results, SceneKey, SceneResult, TextureInfo,
 };
+use crate::experiment::sequence::Sequence;
+use crate::metric::Step;
 
 /// The columns of `metrics.csv`, in order.
-pub const COLUMNS: [&str; 13] = [
+pub const COLUMNS: [&str; 14] = [
     "texture",
     "surface",
     "light",
@@ -17,6 +19,7 @@ pub const COLUMNS: [&str; 13] = [
     "texels_per_pixel",
     "distance",
     "elevation",
+    "frame",
     "method",
     "spp",
     "metric",
@@ -47,6 +50,7 @@ pub fn csv(results: &Results) -> Vec<u8> {
             round_trip(key.texels_per_pixel),
             round_trip(key.distance),
             round_trip(key.elevation),
+            key.frame.map_or_else(String::new, |frame| frame.to_string()),
             row.method.to_owned(),
             row.spp.map_or_else(String::new, |spp| spp.to_string()),
             row.metric.to_owned(),
@@ -132,6 +136,26 @@ struct Document<'a> {
     methods: &'a [MethodInfo],
     textures: &'a [TextureInfo],
     scenes: Vec<SceneJson<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    sequences: Vec<SequenceJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct SequenceJson<'a> {
+    slug: &'a str,
+    frames: Vec<&'a str>,
+    truth_change: f64,
+    noise: f64,
+    trials: Vec<FlickerJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct FlickerJson<'a> {
+    method: &'a str,
+    spp: u32,
+    flicker: Option<f64>,
+    error_flicker: Option<f64>,
+    steps: &'a [Step],
 }
 
 #[derive(Serialize)]
@@ -176,10 +200,28 @@ pub fn json(results: &Results) -> Vec<u8> {
         methods: &results.methods,
         textures: &results.textures,
         scenes: results.scenes.iter().map(scene_json).collect(),
+        sequences: results.sequences.iter().map(|s| sequence_json(results, s)).collect(),
     };
     let mut bytes = serde_json::to_vec_pretty(&document).expect("the document has string keys");
     bytes.push(b'\n');
     bytes
+}
+
+fn sequence_json<'a>(results: &'a Results, sequence: &'a Sequence) -> SequenceJson<'a> {
+    let trials = sequence.trials.iter().map(|trial| FlickerJson {
+        method: &trial.method,
+        spp: trial.spp,
+        flicker: trial.flicker.ratio(),
+        error_flicker: trial.flicker.error_ratio(),
+        steps: &trial.flicker.steps,
+    });
+    SequenceJson {
+        slug: &sequence.slug,
+        frames: sequence.of(&results.scenes).iter().map(|frame| frame.slug.as_str()).collect(),
+        truth_change: sequence.truth_change,
+        noise: sequence.noise,
+        trials: trials.collect(),
+    }
 }
 
 fn scene_json(scene: &SceneResult) -> SceneJson<'_> {
@@ -227,7 +269,7 @@ mod tests {
         let results = fixture::results();
         let bytes = csv(&results);
         let mut reader = csv::Reader::from_reader(bytes.as_slice());
-        let read: Vec<f64> = reader.records().map(|r| r.unwrap()[12].parse().unwrap()).collect();
+        let read: Vec<f64> = reader.records().map(|r| r.unwrap()[13].parse().unwrap()).collect();
         assert_eq!(read, rows(&results).map(|row| row.value).collect::<Vec<_>>());
         for value in [0.1 + 0.2, 1e-300, 5e-324, 1e22, -0.0, 123_456.789] {
             assert_eq!(round_trip(value).parse::<f64>().unwrap().to_bits(), value.to_bits());

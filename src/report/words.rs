@@ -12,6 +12,15 @@ pub fn shading_formula(shading: &str) -> &'static str {
             "radiance Σ E · D(h) · G₁(l) G₁(v) / (4 n·v), the sum over lobes; E the irradiance on a plane facing the light, \
              l, v and h the directions to light and eye and their half vector, n the lobe’s axis, G₁ Smith’s shadowing"
         }
+        "phong" => {
+            "radiance Σ E · D(h′), the sum over lobes; E the irradiance on a plane facing the light, h′ beside the lobe’s \
+             axis at the angle whose cosine is (r·v)^¼, r the mirrored direction: of a base lobe of exponent s, (r·v)^(s/4)"
+        }
+        "torrance-sparrow" => {
+            "radiance Σ E · D(h) · G F / (4 n·v), the sum over lobes; E the irradiance on a plane facing the light, l, v and \
+             h the directions to light and eye and their half vector, n the lobe’s axis, G = min(1, 2 (n·h)(n·v)/(v·h), \
+             2 (n·h)(n·l)/(v·h)) of V-shaped grooves, F Fresnel’s for the material’s index, or 1 (Blinn 1977)"
+        }
         _ => "as its program computes it",
     }
 }

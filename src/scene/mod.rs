@@ -19,7 +19,7 @@ mod surface;
 mod texture;
 mod trial;
 
-pub use light::{Kindled, LightOrigin};
+pub use light::{Kindled, LightOrigin, MovedLight};
 pub use measure::{Probe, ProbedMethod, Probes, Scores};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
@@ -103,6 +103,11 @@ pub enum Tiling {
     Tiles(f64),
 }
 
+/// The camera that a scene's texture is tiled before, where it is not the scene's own: the frames of a sequence
+/// share the tiling of their first.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct TiledBefore(pub Entity);
+
 /// Samples of the scene's reference.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct ReferencePlan {
@@ -110,6 +115,9 @@ pub struct ReferencePlan {
     pub spp: u32,
     /// Independent replicates, at least 2.
     pub replicates: u32,
+    /// Number of the first replicate, at least 1: replicate 0 belongs to the trials. References whose numbers
+    /// differ share no random number.
+    pub first: u32,
     /// What it shows of the bumps.
     pub truth: Truth,
 }

@@ -36,8 +36,8 @@ fn converge(
     let done = replicates.as_ref().map_or(0, |r| r.0.len()) as u32;
     let sampler = PixelSampler::new(plan.spp / plan.replicates);
     let stop = || halt.now();
-    // Replicate 0 belongs to the trials: the reference shares no random number with them.
-    let replicate = reference_replicate(&staged.view, truth, &sampler, seed.0, done + 1, &stop);
+    let number = plan.first + done;
+    let replicate = reference_replicate(&staged.view, truth, &sampler, seed.0, number, &stop);
     let Ok(film) = replicate else { return };
     let mut films = replicates.map(|mut r| std::mem::take(&mut r.0)).unwrap_or_default();
     films.push(film);

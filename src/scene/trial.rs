@@ -8,7 +8,7 @@ use bevy_ecs::system::{SystemParam, SystemState};
 
 use super::{
     CameraPose, Current, Halt, LightSource, LookupBy, Map, Material, Prefilter, PrefilterOf,
-    Progress, SceneOf, Seed, Stage, Strategy, SurfaceShape, Tiling,
+    Progress, SceneOf, Seed, Stage, Strategy, SurfaceShape, TiledBefore, Tiling,
 };
 use crate::render::{self, Film, Filtered, PixelSampler, View};
 use crate::texture::NormalMap;
@@ -57,7 +57,7 @@ pub fn stage(world: &mut World, scene: Entity) -> Option<StagedScene> {
 /// Puts scenes together.
 #[derive(SystemParam)]
 pub struct SceneView<'w, 's> {
-    scenes: Query<'w, 's, (&'static SceneOf, &'static Tiling)>,
+    scenes: Query<'w, 's, (&'static SceneOf, &'static Tiling, Option<&'static TiledBefore>)>,
     maps: Query<'w, 's, &'static Map>,
     surfaces: Query<'w, 's, &'static SurfaceShape>,
     cameras: Query<'w, 's, &'static CameraPose>,
@@ -68,7 +68,7 @@ pub struct SceneView<'w, 's> {
 impl SceneView<'_, '_> {
     /// The scene, if its texture is loaded.
     pub fn of(&self, scene: Entity) -> Option<StagedScene> {
-        let (of, tiling) = self.scenes.get(scene).ok()?;
+        let (of, tiling, before) = self.scenes.get(scene).ok()?;
         let map = Arc::clone(&self.maps.get(of.texture).ok()?.normals);
         let material = *self.materials.get(of.material).ok()?;
         let untiled = View {
@@ -79,7 +79,15 @@ impl SceneView<'_, '_> {
             wrap: map.wrap(),
             lookup: crate::texture::Lookup::default(),
         };
-        Some(StagedScene { view: tiled(untiled, *tiling, &map), map, material })
+        let view = match before {
+            None => tiled(untiled, *tiling, &map),
+            Some(before) => {
+                let camera = self.cameras.get(before.0).ok()?.camera;
+                let first = View { camera, ..untiled.clone() };
+                View { surface: tiled(first, *tiling, &map).surface, ..untiled }
+            }
+        };
+        Some(StagedScene { view, map, material })
     }
 }
 

@@ -12,6 +12,7 @@ mod hierarchy;
 mod mesh;
 mod model;
 mod patches;
+mod perturbation;
 mod plane;
 mod sphere;
 mod wavy_sphere;
@@ -23,11 +24,13 @@ pub use drapery::drapery;
 pub use mesh::{Mesh, Vertex};
 pub use model::{MOST_TRIANGLES, Model, ModelError, Up, files_of, read_model};
 pub use patches::{Chart, Charted, Patches, bent_patch, ribbon, teapot, teapot_mesh};
+pub use perturbation::{Derivatives, Perturbation, Perturbed};
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub use wavy_sphere::{WavyFrame, WavySphere};
 
 use crate::geometry::{Frame, Vec3};
+use crate::texture::Bend;
 
 /// A point of a surface that a ray hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +100,8 @@ pub enum Shape {
     WavySphere(WavySphere),
     /// Any of these with a main direction for its bumps.
     MainDirection(MainDirection),
+    /// Any of these on which bumps are displacements, or as steep as them.
+    Perturbed(Perturbed),
 }
 
 /// Does the same with whichever surface a shape is.
@@ -110,6 +115,7 @@ macro_rules! with {
             Shape::Patches($surface) => $does,
             Shape::WavySphere($surface) => $does,
             Shape::MainDirection($surface) => $does,
+            Shape::Perturbed($surface) => $does,
         }
     };
 }
@@ -135,6 +141,15 @@ impl Shape {
             Self::Patches(patches) => Self::Patches(patches.tiled(tiles, aspect)),
             Self::WavySphere(sphere) => Self::WavySphere(sphere.tiled(tiles, aspect)),
             Self::MainDirection(turned) => Self::MainDirection(turned.tiled(tiles, aspect)),
+            Self::Perturbed(perturbed) => Self::Perturbed(perturbed.tiled(tiles, aspect)),
+        }
+    }
+
+    /// What becomes of a map's slopes at a hit; None where they are slopes in its frame.
+    pub fn bend(&self, hit: &Hit) -> Option<Bend> {
+        match self {
+            Self::Perturbed(perturbed) => Some(perturbed.bend(hit)),
+            _ => None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The part of a map that a pixel covers.
 
-use super::Lookup;
+use super::{Bend, Lookup};
 use crate::geometry::elementary::log2_32;
 
 /// A pixel's (or a sample's) footprint: a parallelogram of the map about a point.
@@ -20,12 +20,16 @@ pub struct Footprint {
     pub along_y: [f32; 2],
     /// How what lies under it is averaged.
     pub lookup: Lookup,
+    /// What becomes of the map's slopes there.
+    pub bend: Bend,
 }
 
 impl Footprint {
     /// The whole map, looked up trilinearly.
     pub fn whole() -> Self {
-        Self { u: 0.5, v: 0.5, along_x: [1.0, 0.0], along_y: [0.0, 1.0], lookup: Lookup::Trilinear }
+        let (along_x, along_y) = ([1.0, 0.0], [0.0, 1.0]);
+        let (lookup, bend) = (Lookup::Trilinear, Bend::default());
+        Self { u: 0.5, v: 0.5, along_x, along_y, lookup, bend }
     }
 
     /// The pyramid level for a map of `width` × `height` texels: log₂ of the footprint's longer side in
@@ -57,7 +61,7 @@ mod tests {
             v: 0.5,
             along_x: [side, 0.0],
             along_y: [0.0, side],
-            lookup: Lookup::default(),
+            ..Footprint::default()
         }
     }
 

@@ -65,6 +65,32 @@ impl HeightMap {
         self.values[j * self.width + i]
     }
 
+    /// The height at entry (i, j), which may lie outside; beyond a clamped edge the table goes on in a straight
+    /// line, so that differences there are those at the edge.
+    pub fn beyond(&self, i: isize, j: isize) -> f64 {
+        if self.wrap == Wrap::Repeat {
+            return self.at(i, j);
+        }
+        let line = |k: isize, size: usize, read: &dyn Fn(isize) -> f64| {
+            let last = size as isize - 1;
+            let edge = k.clamp(0, last);
+            let inner = if k < 0 { 1.min(last) } else { (last - 1).max(0) };
+            match k - edge {
+                0 => read(k),
+                over => read(edge) + (read(edge) - read(inner)) * over.abs() as f64,
+            }
+        };
+        line(j, self.height, &|j| line(i, self.width, &|i| self.at(i, j)))
+    }
+
+    /// The table `count` times along each side.
+    pub fn replicated(&self, count: usize) -> Self {
+        let (width, height) = (self.width * count, self.height * count);
+        let entry = |k: usize| (k / width % self.height) * self.width + k % width % self.width;
+        let values = (0..width * height).map(|k| self.values[entry(k)]).collect();
+        Self { width, height, wrap: self.wrap, values }
+    }
+
     /// The table turned by 90° counter-clockwise about its centre.
     pub fn rotated(&self) -> Self {
         let (width, height) = (self.height, self.width);

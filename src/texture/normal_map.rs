@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
-use super::{HeightMap, Taps, Wrap};
+use super::{HeightMap, Interpolation, Taps, Wrap};
 use crate::geometry::Quad;
 
 /// Smallest z a normal may have where a *slope* is asked of it. A slope is n_xy / n_z; a normal at or
@@ -19,18 +17,6 @@ pub const MIN_COSINE: f32 = 1.0 / 64.0;
 /// surface area counts; w = 0 marks a texel where there is no surface.
 pub type Texel = [f32; 4];
 
-/// How normals between texel centres are found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Interpolation {
-    /// Bilinear in the unit normals' coordinates and the weight, then normalised.
-    #[default]
-    Bilinear,
-    /// The texel's own normal over the whole texel: a mosaic of flat facets. What a filter that
-    /// counts texels assumes.
-    Nearest,
-}
-
 /// A map of unit normals with weights.
 ///
 /// Texel (i, j) has its centre at u = (i + ½)/width, v = (j + ½)/height; row 0 is at v = 0, the
@@ -42,6 +28,8 @@ pub struct NormalMap {
     wrap: Wrap,
     interpolation: Interpolation,
     texels: Vec<Texel>,
+    /// The texels scaled to z = 1, where those are what is interpolated; else none.
+    slopes: Vec<Texel>,
     heights: Option<Arc<HeightMap>>,
 }
 
@@ -57,7 +45,7 @@ impl NormalMap {
         assert!(width > 0 && height > 0 && texels.len() == width * height, "shape of a normal map");
         texels.iter_mut().for_each(|t| *t = unit(*t));
         let interpolation = Interpolation::default();
-        Self { width, height, wrap, interpolation, texels, heights: None }
+        Self { width, height, wrap, interpolation, texels, slopes: Vec::new(), heights: None }
     }
 
     /// A map of `width` × `height` texels whose normal at texel centre (u, v) is `f(u, v)` =
@@ -93,10 +81,34 @@ impl NormalMap {
         Self::new(width, height, heights.wrap(), texels)
     }
 
-    /// The same map, its normals between texels found by `interpolation`.
+    /// The same map, its normals between texels found by `interpolation`. A spline is one of its heights
+    /// (see [`NormalMap::with_heights`], which comes first); where there are none, they are integrated.
     pub fn with_interpolation(mut self, interpolation: Interpolation) -> Self {
         self.interpolation = interpolation;
+        self.slopes = match interpolation {
+            Interpolation::Table => self.texels.iter().map(sloping).collect(),
+            _ => Vec::new(),
+        };
+        if interpolation.spline().is_some() {
+            self.heights = Some(self.heights_or_integrated());
+        }
         self
+    }
+
+    /// The map `count` times along each side, as Blinn's "unit cell pattern to be replicated many times per
+    /// patch" (1978 §3).
+    pub fn replicated(&self, count: usize) -> Self {
+        let (width, height) = (self.width * count, self.height * count);
+        let cells = (0..width * height).map(|k| (k % width % self.width, k / width % self.height));
+        Self {
+            width,
+            height,
+            texels: cells.map(|(i, j)| self.texel(i, j)).collect(),
+            heights: self.heights.as_ref().map(|heights| Arc::new(heights.replicated(count))),
+            slopes: Vec::new(),
+            ..*self
+        }
+        .with_interpolation(self.interpolation)
     }
 
     /// The same map, with the heights that its normals are of: texel sides, of the same size and wrap.
@@ -169,11 +181,24 @@ impl NormalMap {
             Interpolation::Bilinear => {
                 bilinear(across, along, |i, j| self.texels[j * self.width + i])
             }
+            Interpolation::Table => bilinear(across, along, |i, j| self.slopes[j * self.width + i]),
             Interpolation::Nearest => {
                 let pick = |t: Taps| if t.blend < 0.5 { t.first } else { t.second };
                 self.texel(pick(across), pick(along))
             }
+            Interpolation::CatmullRom | Interpolation::BSpline => self.of_spline(u, v),
         }
+    }
+
+    /// The normal of the spline through the heights, not of unit length; weights are bilinear.
+    #[inline(never)]
+    fn of_spline(&self, u: f32, v: f32) -> Texel {
+        let (across, along) = (self.wrap.taps(u, self.width), self.wrap.taps(v, self.height));
+        let [weight] = bilinear(across, along, |i, j| [self.texels[j * self.width + i][3]]);
+        let spline = self.interpolation.spline().zip(self.heights.as_ref());
+        let (spline, heights) = spline.expect("splines come with heights");
+        let [_, fx, fy] = spline.at(heights, u.into(), v.into());
+        [-fx as f32, -fy as f32, 1.0, weight]
     }
 
     /// The unit normal and weight at folded texture coordinates.
@@ -194,6 +219,17 @@ impl NormalMap {
         v: &[f32; N],
         out: &mut [[f32; N]; 4],
     ) {
+        let nodes = match self.interpolation {
+            Interpolation::Bilinear | Interpolation::Nearest => &self.texels,
+            Interpolation::Table => &self.slopes,
+            Interpolation::CatmullRom | Interpolation::BSpline => {
+                for i in 0..N {
+                    let texel = self.of_spline(u[i], v[i]);
+                    (0..4).for_each(|c| out[c][i] = texel[c]);
+                }
+                return;
+            }
+        };
         let wrap = if REPEAT { Wrap::Repeat } else { Wrap::Clamp };
         let (mut right, mut up) = ([0.0f32; N], [0.0f32; N]);
         let mut corners = [[0u32; N]; 4];
@@ -214,12 +250,12 @@ impl NormalMap {
         }
         // One check for all, so that the loop below has none.
         let last = corners.iter().flatten().fold(0, |last, &i| last.max(i));
-        assert!((last as usize) < self.texels.len(), "texel {last} is outside the map");
+        assert!((last as usize) < nodes.len(), "texel {last} is outside the map");
         let lane = |i: usize| {
             let at = |corner: usize| {
                 // SAFETY: no index is larger than `last`, which is inside.
                 #[expect(unsafe_code, reason = "checked once for all lanes, above")]
-                let texel = unsafe { self.texels.get_unchecked(corners[corner][i] as usize) };
+                let texel = unsafe { nodes.get_unchecked(corners[corner][i] as usize) };
                 Quad::from(*texel)
             };
             let low = Quad::lerp(at(0), at(1), right[i]);
@@ -251,15 +287,23 @@ impl NormalMap {
             texels[i * width + (width - 1 - j)] = [-y, x, z, w];
         }
         let heights = self.heights.as_ref().map(|heights| Arc::new(heights.rotated()));
-        Self { width, height, wrap: self.wrap, interpolation: self.interpolation, texels, heights }
+        let turned = Self { width, height, texels, slopes: Vec::new(), heights, ..*self };
+        turned.with_interpolation(self.interpolation)
     }
 
     /// The map with every slope multiplied by `factor` (its bumps that much higher).
     pub fn scaled(&self, factor: f32) -> Self {
         let scale = |&[x, y, z, w]: &Texel| unit([x * factor, y * factor, z, w]);
         let heights = self.heights.as_ref().map(|h| Arc::new(h.scaled(factor.into())));
-        Self { texels: self.texels.iter().map(scale).collect(), heights, ..self.clone() }
+        let texels = self.texels.iter().map(scale).collect();
+        Self { texels, heights, ..self.clone() }.with_interpolation(self.interpolation)
     }
+}
+
+/// The texel scaled to z = 1, which is held at [`MIN_COSINE`]: its slopes, negative.
+fn sloping(&[x, y, z, w]: &Texel) -> Texel {
+    let z = z.max(MIN_COSINE);
+    [x / z, y / z, 1.0, w]
 }
 
 /// The weighted sum of four values around a point, channel by channel.
@@ -321,6 +365,19 @@ mod tests {
         let map = ramp();
         assert_eq!(map.rotated().rotated().rotated().rotated(), map);
         assert_eq!((map.rotated().width(), map.rotated().height()), (3, 5));
+    }
+
+    #[test]
+    fn a_replicated_map_is_the_map_folded() {
+        let map = ramp().with_interpolation(Interpolation::Table);
+        let three = map.replicated(3);
+        assert_eq!((three.width(), three.height()), (15, 9));
+        for (u, v) in [(0.1f32, 0.2f32), (0.4, 0.9), (0.95, 0.05)] {
+            let fold = |c: f32| Wrap::Repeat.fold((3.0 * c).into()) as f32;
+            let (all, one) = (three.sample(u, v), map.sample(fold(u), fold(v)));
+            (0..4).for_each(|c| assert!((all[c] - one[c]).abs() < 1e-5, "{all:?} {one:?}"));
+        }
+        assert_eq!(map.replicated(1), map);
     }
 
     #[test]

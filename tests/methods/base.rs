@@ -37,7 +37,8 @@ fn a_single_normal_gives_the_base_lobe() {
 fn at_a_texel_of_the_map_a_filter_is_the_unfiltered_lobe() {
     for wrap in [Wrap::Repeat, Wrap::Clamp] {
         let map = bumps(5, 4, wrap);
-        for case in cases() {
+        // A fractal surface is as rough at a texel as it is all over.
+        for case in cases().into_iter().filter(|case| !case.card.fractal) {
             let filtered = case.on(&map);
             for (k, at) in centres(&map, 0).iter().enumerate().step_by(7) {
                 let [x, y, z, _] = map.texels()[k];

@@ -4,10 +4,20 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, LazyLock};
 
 use wrinkle::geometry::{Frame, HemisphereGrid, Vec3};
-use wrinkle::lobe::{BaseLobe, MultipleSurface};
+use wrinkle::lobe::intensity::Fresnel;
+use wrinkle::lobe::{BaseLobe, MultipleSurface, Shading};
 use wrinkle::method::{self, Card, Entry, Method, Prefiltered, Silent};
 use wrinkle::parameter::{Domain, Value, Values};
 use wrinkle::texture::{Footprint, NormalMap, Wrap, level_sizes};
+
+/// Every shading.
+pub const SHADINGS: [Shading; 5] = [
+    Shading::Ndf,
+    Shading::Microfacet,
+    Shading::Phong,
+    Shading::TorranceSparrow(Fresnel::Mirror),
+    Shading::TorranceSparrow(Fresnel::Index(1.5)),
+];
 
 /// The base lobes that methods are tried with.
 pub const BASES: [BaseLobe; 4] = [

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use wrinkle::lobe::{Shading, vector};
+use wrinkle::lobe::vector;
 use wrinkle::method::{BATCH, Batch, shade_by_lobes};
 use wrinkle::texture::{Interpolation, Lookup, NormalMap, Wrap};
 
-use super::fixture::{bumps, cases};
+use super::fixture::{SHADINGS, bumps, cases};
 
 fn uniform(random: &mut impl Rng) -> f32 {
     random.next_u32() as f32 / 4_294_967_296.0
@@ -70,7 +70,7 @@ fn kernels_agree_with_the_lobes() {
             for len in (0..=BATCH).step_by(3).chain([1, 2, BATCH - 1, BATCH]) {
                 let mut batch = batch(len, &map, &mut random);
                 batch.lookup = LOOKUPS[len % LOOKUPS.len()];
-                for shading in [Shading::Ndf, Shading::Microfacet] {
+                for shading in SHADINGS {
                     let (mut fast, mut slow) = ([f32::NAN; BATCH], [f32::NAN; BATCH]);
                     filtered.shade(&batch, shading, &mut fast);
                     shade_by_lobes(filtered.as_ref(), &batch, shading, &mut slow);

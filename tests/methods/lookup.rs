@@ -8,7 +8,14 @@ use super::fixture::{COARSE, COARSE_ERROR, Case, bumps, cases, half_vectors, mom
 
 /// A footprint of the whole of a map that repeats, longer than wide, by any lookup.
 fn long(lookup: Lookup) -> Footprint {
-    Footprint { u: 0.3, v: 0.4, along_x: [2.0, 0.5], along_y: [-0.1, 0.4], lookup }
+    Footprint {
+        u: 0.3,
+        v: 0.4,
+        along_x: [2.0, 0.5],
+        along_y: [-0.1, 0.4],
+        lookup,
+        ..Footprint::default()
+    }
 }
 
 #[test]
@@ -67,6 +74,7 @@ fn only_trilinear_lookups_blur_across_a_long_footprint() {
         along_x: [2.0 / 64.0, 0.0],
         along_y: [0.0, 32.0 / 64.0],
         lookup,
+        ..Footprint::default()
     };
     // Eight bits round a cell's numbers by as much as a lookup changes them.
     let fine = |case: &&Case| case.card.keeps_roughness && !case.name.contains("8-bit");

@@ -38,7 +38,7 @@ fn the_change_from_filtered_to_magnified_has_no_jump() {
 fn a_magnified_map_is_not_filtered() {
     let map = bumps(8, 8, Wrap::Repeat);
     let [x, y, z, weight] = map.sample(AT.0, AT.1);
-    for case in cases() {
+    for case in cases().into_iter().filter(|case| !case.card.fractal) {
         let unfiltered = case.base.about([x, y, z], weight);
         for level in [-1.0, -1.5, -2.0, -30.0, f32::NEG_INFINITY] {
             let surface = case.on(&map).lobes_at(&footprint(&map, AT.0, AT.1, level));

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use wrinkle::lobe::{Shading, vector};
+use wrinkle::lobe::vector;
 use wrinkle::method::{BATCH, Batch};
 use wrinkle::texture::{NormalMap, Texel, Wrap};
 
-use super::fixture::cases;
+use super::fixture::{SHADINGS, cases};
 
 /// Normals in any direction, also below the horizon, some of no length, some without weight.
 fn texel() -> impl Strategy<Value = Texel> {
@@ -64,7 +64,7 @@ proptest! {
         let batch = batch(&lanes);
         for case in cases() {
             let filtered = case.on(&map);
-            for shading in [Shading::Ndf, Shading::Microfacet] {
+            for shading in SHADINGS {
                 let mut radiance = [f32::NAN; BATCH];
                 filtered.shade(&batch, shading, &mut radiance);
                 for (i, r) in radiance.iter().enumerate().take(lanes.len()) {

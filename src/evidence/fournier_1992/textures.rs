@@ -55,9 +55,9 @@ impl Subject {
         };
         let entry = pattern::find(pattern).expect("a pattern of the program's own");
         let mut values = Values::defaults(entry.parameters);
-        for &(name, value) in own.iter().chain(readings) {
-            debug_assert!(entry.parameters.iter().any(|p: &Parameter| p.name == name));
-            values.set(name, value);
+        for (name, value) in own.iter().chain(readings) {
+            debug_assert!(entry.parameters.iter().any(|p: &Parameter| p.name == *name));
+            values.set(name, value.clone());
         }
         let bumps = (entry.build)(self.side(), self.side(), &values, 1);
         match bumps.heights {

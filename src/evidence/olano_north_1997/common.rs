@@ -22,11 +22,7 @@ pub const EXPONENT: Parameter = Parameter {
 /// A method of the program's own with options other than their defaults.
 pub fn method(name: &str, options: &[(&'static str, Value)]) -> Box<dyn Method> {
     let entry = method::find(name).expect("a method of the program's own");
-    let mut values = Values::defaults(entry.parameters);
-    for &(name, value) in options {
-        values.set(name, value);
-    }
-    (entry.build)(&values)
+    (entry.build)(&Values::defaults(entry.parameters).with(options))
 }
 
 /// A method's map, of a base lobe that it takes.

@@ -126,7 +126,7 @@ fn mirrored(facets: &[Vec3], light: &Vec3, view: &Vec3) -> f64 {
 fn facets(exponent: f64, seed: u64) -> Vec<Vec3> {
     let variance = Value::Number(1.0 / exponent);
     let set = [
-        ("slope_variance_u", variance),
+        ("slope_variance_u", variance.clone()),
         ("slope_variance_v", variance),
         ("correlation_length", Value::Number(1.5)),
     ];

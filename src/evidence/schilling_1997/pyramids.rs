@@ -28,8 +28,7 @@ pub struct Level {
 /// A pattern of the program's on a square map, with some of its options set.
 pub fn bumps(name: &str, side: usize, set: &[(&'static str, Value)], seed: u64) -> Bumps {
     let entry = pattern::find(name).expect("a pattern of the program's own");
-    let mut values = Values::defaults(entry.parameters);
-    set.iter().for_each(|&(name, value)| values.set(name, value));
+    let values = Values::defaults(entry.parameters).with(set);
     (entry.build)(side, side, &values, seed)
 }
 

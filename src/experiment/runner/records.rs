@@ -20,7 +20,8 @@ impl Run<'_> {
         let found: Option<(ReferenceRecord, _)> =
             self.store.find_with_film(slug, keys::REFERENCE, &depends);
         if let Some((record, film)) = found {
-            let converged = Converged { film, spp: record.spp, rmse: record.rmse };
+            let ReferenceRecord { spp, rmse, mean_error } = record;
+            let converged = Converged { film, spp, rmse, mean_error };
             world.entity_mut(scene.entity).insert(ReferenceImage(Arc::new(converged)));
             self.advance(self.work.reference(), true);
         }
@@ -105,7 +106,8 @@ impl Run<'_> {
         let Some(image) = self.stage.world.get::<ReferenceImage>(scene.entity) else {
             return Ok(());
         };
-        let record = ReferenceRecord { spp: image.0.spp, rmse: image.0.rmse };
+        let Converged { spp, rmse, mean_error, .. } = *image.0;
+        let record = ReferenceRecord { spp, rmse, mean_error };
         let depends = keys::scene(scene);
         self.store.keep_with_film(
             &scene.slug,

@@ -116,13 +116,36 @@ impl<'a> Item<'a> {
         }
     }
 
+    /// The same value, called otherwise in messages.
+    pub fn called(&self, place: String) -> Self {
+        Self { place, ..self.clone() }
+    }
+
+    /// A whole number from `min` to `max`, which may be negative.
+    pub fn integer_from(&self, min: i64, max: i64) -> Option<i64> {
+        let whole = self.integer().and_then(|i| i64::try_from(i).ok());
+        whole
+            .filter(|i| (min..=max).contains(i))
+            .or_else(|| self.mismatch(&format!("a whole number from {min} to {max}"), None))
+    }
+
+    /// The values of a list that has a number of them within `count`.
+    pub fn members(
+        &self,
+        count: std::ops::RangeInclusive<usize>,
+        expected: &str,
+    ) -> Option<Vec<Item<'a>>> {
+        match self.value.get_ref() {
+            DeValue::Array(list) if count.contains(&list.len()) => {
+                Some(list.iter().map(|value| self.member(value)).collect())
+            }
+            _ => self.mismatch(expected, None),
+        }
+    }
+
     /// Exactly `N` values, such as the coordinates of a point.
     pub fn tuple<const N: usize>(&self, expected: &str) -> Option<[Item<'a>; N]> {
-        let items: Vec<Item> = match self.value.get_ref() {
-            DeValue::Array(list) => list.iter().map(|value| self.member(value)).collect(),
-            _ => Vec::new(),
-        };
-        items.try_into().ok().or_else(|| self.mismatch(expected, None))
+        self.members(N..=N, expected)?.try_into().ok()
     }
 
     /// A point or vector, each coordinate from −10⁶ to 10⁶. All three are read before any is missed, so that

@@ -3,6 +3,7 @@
 use super::item::Item;
 use super::limits::Limits;
 use super::reader::Reader;
+use crate::lobe::intensity::Fresnel;
 use crate::lobe::{BaseLobe, Shading};
 
 /// The family of a base lobe.
@@ -66,9 +67,33 @@ pub(super) struct Material {
 impl Material {
     pub fn read(reader: &Reader) -> Self {
         let (family, lobe) = read_lobe(reader);
-        let shadings = [("ndf", Shading::Ndf), ("microfacet", Shading::Microfacet)];
-        Self { family, lobe, shading: reader.choice("shading", &shadings) }
+        let shadings = [
+            ("ndf", Shading::Ndf),
+            ("microfacet", Shading::Microfacet),
+            ("phong", Shading::Phong),
+            ("torrance-sparrow", Shading::TorranceSparrow(Fresnel::Mirror)),
+        ];
+        let shading = match reader.choice("shading", &shadings) {
+            Shading::TorranceSparrow(_) => Shading::TorranceSparrow(read_fresnel(reader)),
+            shading => shading,
+        };
+        if let (Shading::Phong, true, Some(item)) =
+            (shading, family != Family::BlinnPhong, reader.item("shading"))
+        {
+            let help = "choose the lobe \"blinn-phong\", or another shading".to_owned();
+            item.error(
+                "Phong's highlight has an exponent, and this lobe has none".to_owned(),
+                Some(help),
+            );
+        }
+        Self { family, lobe, shading }
     }
+}
+
+/// What facets mirror: all, unless there is an index of refraction.
+fn read_fresnel(reader: &Reader) -> Fresnel {
+    let index = reader.item("index").and_then(|item| item.real(Limits::from_to(1.0, 10.0)));
+    index.map_or(Fresnel::Mirror, |index| Fresnel::Index(index as f32))
 }
 
 /// Reads `lobe` and its `exponent` or `alpha`.

@@ -12,6 +12,7 @@ mod limits;
 mod log;
 mod material;
 mod method;
+mod motion;
 mod paper;
 #[cfg(test)]
 mod paper_tests;
@@ -35,20 +36,23 @@ use toml::de::DeTable;
 pub use error::{SpecError, SpecErrors};
 pub use light::{EnvironmentSource, LightSpec};
 pub use method::MethodSpec;
+pub use motion::{MotionKind, MotionSpec, Pose};
 pub use paper::{Experiment, PaperKeys, PaperSpec, RowKeys, RowSpec};
 pub use reference::ReferenceSpec;
 pub use scene::{CameraSpec, ImageSpec};
 pub(crate) use suggest::no_such;
 pub use surface::{AxesSpec, ModelSpec, Shape, SurfaceSpec, WavySphereSpec};
 pub use sweep::{Scale, SweepSpec};
-pub use texture::{Reading, TextureSource, TextureSpec};
+pub use texture::{MAX_REPEATED, Reading, TextureSource, TextureSpec};
 
 use crate::lobe::Shading;
 use crate::method::Truth;
+use crate::surface::Perturbation;
 use catalogue::Catalogue;
 use log::Log;
 use material::Material;
 use reader::Reader;
+use suggest::all_of;
 use sweep::Context;
 
 /// An experiment: what to render, and what to hold it to. Every value is checked and every default
@@ -75,6 +79,8 @@ pub struct Spec {
     pub shading: Shading,
     /// The reference.
     pub reference: ReferenceSpec,
+    /// How every scene moves; None if all is still.
+    pub motion: Option<MotionSpec>,
     /// What is combined with what.
     pub sweep: SweepSpec,
     /// The file as written.
@@ -139,6 +145,25 @@ fn refuse(reader: &Reader, key: &'static str, message: &str) {
     }
 }
 
+/// Logs methods, and a truth, that take slopes only as they are in the map.
+fn check_bends(root: &Reader, sweep: &SweepSpec, truth: Truth) {
+    let unable = sweep.methods.iter().filter(|method| !method.build().bends());
+    let labels: Vec<String> = unable.map(|method| format!("\"{}\"", method.label)).collect();
+    if !labels.is_empty() {
+        let message = format!(
+            "{} cannot be used with this `perturbation`: what they spread of the map's slopes would have to be \
+             carried along at every point",
+            all_of(&labels)
+        );
+        let help = "methods that shade single normals can: \"unfiltered\" (without shadowing), \"averaged\"";
+        root.error(message, Some(help.to_owned()));
+    }
+    if truth != Truth::Bumps {
+        let message = format!("the truth \"{}\" takes slopes as they are in the map", truth.name());
+        root.error(message, Some("use \"bumps\" with this `perturbation`".to_owned()));
+    }
+}
+
 /// Reads everything; the spec means something only if nothing was logged.
 fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Spec {
     let name = name.to_owned();
@@ -181,6 +206,9 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         }
         (label, method)
     });
+    let moves = root.item("motion").is_some();
+    let motion =
+        moves.then(|| root.section("motion", "[motion]", |r| MotionSpec::read(r, &camera, shape)));
     let context = Context {
         catalogue,
         textures,
@@ -190,9 +218,13 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         tiles,
         material,
         reference,
+        motion,
         seed,
     };
     let sweep = root.section("sweep", "[sweep]", |r| SweepSpec::read(r, &context));
+    if surface.perturbation != Perturbation::Tangent {
+        check_bends(root, &sweep, reference.truth);
+    }
     Spec {
         name,
         title,
@@ -204,6 +236,7 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         light,
         shading: material.shading,
         reference,
+        motion,
         sweep,
         text: text.to_owned(),
     }

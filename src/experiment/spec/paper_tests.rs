@@ -52,7 +52,7 @@ fn a_part_is_what_is_common_and_its_own() {
     assert_eq!((near.name.as_str(), near.title.as_str()), ("near", "Near by"));
     assert_eq!((near.image.width, near.image.height), (16, 32));
     let values: Vec<_> = spec.rows.iter().map(|row| (row.row, row.values.iter().next())).collect();
-    let thirty = Some(("exponent", Value::Number(30.0)));
+    let thirty = Some(("exponent", &Value::Number(30.0)));
     assert_eq!(values, [("bumps-f1", thirty), ("bumps-f2", None)]);
 }
 

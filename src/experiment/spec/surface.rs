@@ -7,7 +7,7 @@ use super::limits::Limits;
 use super::reader::Reader;
 use super::texture::folder;
 use crate::geometry::Ripples;
-use crate::surface::Up;
+use crate::surface::{Perturbation, Up};
 
 /// A surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub struct SurfaceSpec {
     pub shape: Shape,
     /// What its bumps stand in.
     pub axes: AxesSpec,
+    /// What slopes of its bumps are.
+    pub perturbation: Perturbation,
     /// The file of a mesh; of no other shape.
     pub model: Option<ModelSpec>,
 }
@@ -135,7 +137,39 @@ impl SurfaceSpec {
         let tiles = reader.item("tiles");
         let limits = Limits::above(0.0, 1e6);
         let tiles = tiles.and_then(|t| Some((t.clone(), t.real(limits)?)));
-        (Self { shape, axes: AxesSpec::read(reader, shape), model }, tiles)
+        let axes = AxesSpec::read(reader, shape);
+        let perturbation = read_perturbation(reader, axes);
+        (Self { shape, axes, perturbation, model }, tiles)
+    }
+}
+
+/// What slopes are; displacements stand in ∇u and ∇v, and no other axes.
+fn read_perturbation(reader: &Reader, axes: AxesSpec) -> Perturbation {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Form {
+        Tangent,
+        Displacement,
+        ScaleInvariant,
+    }
+    let words = [
+        ("tangent", Form::Tangent),
+        ("displacement", Form::Displacement),
+        ("scale-invariant", Form::ScaleInvariant),
+    ];
+    let form = reader.choice("perturbation", &words);
+    if form != Form::Tangent
+        && axes != AxesSpec::Natural
+        && let Some(item) = reader.item("perturbation")
+    {
+        let message = "displacements stand along u and v: a `frame` would change nothing";
+        item.error(message.to_owned(), Some("leave out one of the two".to_owned()));
+    }
+    match form {
+        Form::Tangent => Perturbation::Tangent,
+        Form::Displacement => Perturbation::Displacement {
+            unit: reader.real("height_unit", 1.0, Limits::above(0.0, 1e6)),
+        },
+        Form::ScaleInvariant => Perturbation::ScaleInvariant,
     }
 }
 

@@ -5,6 +5,7 @@ use super::item::Item;
 use super::limits::Limits;
 use super::material::{Material, read_lobe};
 use super::method::{LOOKUPS, MethodSpec};
+use super::motion::MotionSpec;
 use super::reader::Reader;
 use super::reference::ReferenceSpec;
 use super::scene::{Shape, distance_limits, elevation_limits};
@@ -60,6 +61,7 @@ pub(super) struct Context<'a> {
     pub tiles: Option<(Item<'a>, f64)>,
     pub material: Material,
     pub reference: ReferenceSpec,
+    pub motion: Option<MotionSpec>,
     pub seed: u64,
 }
 
@@ -203,6 +205,11 @@ fn read_scale(reader: &Reader, context: &Context) -> Scale {
             Scale::TexelsPerPixel(Vec::new())
         }
         (None, Some(distance)) => {
+            if context.motion.is_some_and(|motion| motion.kind.changes_distance()) {
+                let help = "keep one: sweep over `texels_per_pixel`, those of the first frame";
+                let message = "`distance` has no effect: [motion] moves the camera".to_owned();
+                distance.error(message, Some(help.to_owned()));
+            }
             let limits = distance_limits(context.shape);
             let distances = distance.list("distances", |item| item.real(limits));
             if context.tiles.is_none() {

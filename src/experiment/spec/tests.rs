@@ -9,6 +9,7 @@ use super::*;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
 use crate::pattern::{self, Bumps};
+use crate::surface::Perturbation;
 use crate::texture::{Interpolation, NormalMap, Wrap};
 
 /// A pattern `ribs` with one option of each kind, and the program's methods.
@@ -52,7 +53,8 @@ fn everything_but_textures_and_methods_has_a_default() {
     let spec = parse(SMALLEST).unwrap();
     assert_eq!((spec.name.as_str(), spec.title.as_str(), spec.seed), ("ribbed", "ribbed", 1));
     assert_eq!(spec.image, ImageSpec { width: 160, height: 120 });
-    let plane = SurfaceSpec { shape: Shape::Plane, axes: AxesSpec::Natural, model: None };
+    let (axes, perturbation) = (AxesSpec::Natural, Perturbation::Tangent);
+    let plane = SurfaceSpec { shape: Shape::Plane, axes, perturbation, model: None };
     assert_eq!(spec.surface, plane);
     let target = [0.0; 3];
     let camera = CameraSpec { elevation: 40.0, azimuth: -90.0, fov: 25.0, distance: 4.0, target };
@@ -168,6 +170,29 @@ fn an_environment_is_a_map_or_a_file() {
 }
 
 #[test]
+fn nothing_moves_unless_it_is_told_to() {
+    assert_eq!(parse(SMALLEST).unwrap().motion, None);
+    let motion =
+        |more: &str| parse(&format!("{SMALLEST}[motion]\n{more}")).unwrap().motion.unwrap();
+    let turn = MotionKind::Rotate { degrees: 60.0 };
+    assert_eq!(motion(""), MotionSpec { kind: turn, frames: 24, fps: 12 });
+    let away = motion("kind = \"recede\"\nto = 32\nframes = 4\nfps = 3\n");
+    let kind = MotionKind::Distance { from: 4.0, to: 32.0 };
+    assert_eq!(away, MotionSpec { kind, frames: 4, fps: 3 });
+}
+
+#[test]
+fn facets_mirror_all_light_unless_they_have_an_index() {
+    use crate::lobe::intensity::Fresnel;
+    let shading = |more: &str| {
+        let text = format!("{SMALLEST}[material]\nshading = \"torrance-sparrow\"\n{more}");
+        parse(&text).unwrap().shading
+    };
+    assert_eq!(shading(""), Shading::TorranceSparrow(Fresnel::Mirror));
+    assert_eq!(shading("index = 1.5\n"), Shading::TorranceSparrow(Fresnel::Index(1.5)));
+}
+
+#[test]
 fn what_contradicts_itself_is_an_error() {
     for (more, message) in [
         ("distance = [1]\n", "a sweep over `distance` needs the key `tiles` in [surface]"),
@@ -221,6 +246,29 @@ fn what_contradicts_itself_is_an_error() {
             "[light]\nkind = \"environment\"\n[method.dark]\nuse = \"unfiltered\"\nshadowing = \"printed\"\n",
             "[method.dark] looks for shadows, which an environment does not cast",
         ),
+        (
+            "[motion]\nkind = \"approach\"\n",
+            "[motion] needs the key `to`: the camera's distance in the last frame",
+        ),
+        (
+            "[motion]\nkind = \"approach\"\nto = 4\n",
+            "to approach from 4, `to` must be less than that, not 4",
+        ),
+        (
+            "[motion]\nkind = \"recede\"\nfrom = 3\nto = 2\n",
+            "to recede from 3, `to` must be more than that, not 2",
+        ),
+        (
+            "[material]\nlobe = \"ggx\"\nshading = \"phong\"\n",
+            "Phong's highlight has an exponent, and this lobe has none",
+        ),
+        ("[material]\nindex = 1.5\n", "unknown key `index` in [material]"),
+        ("[motion]\nframes = 1\n", "`frames` must be a whole number from 2 to 500, not 1"),
+        ("[motion]\nto = 2\n", "unknown key `to` in [motion]"),
+        (
+            "distance = [3]\n[surface]\ntiles = 3\n[motion]\nkind = \"recede\"\nto = 8\n",
+            "`distance` has no effect: [motion] moves the camera",
+        ),
         ("[texture.x]\npattern = \"ribs\"\ngreen = \"up\"\n", "unknown key `green` in [texture.x]"),
         ("[texture.x]\npattern = \"rib\"\ncount = 3\n", "unknown pattern \"rib\""),
     ] {
@@ -235,7 +283,10 @@ fn the_manual_names_every_key_under_its_heading() {
     let mut keys = BTreeSet::new();
     let normal_file = "[texture.x]\nfile = \"../Cargo.toml\"\nkind = \"normal\"\n";
     let around = "[light]\nkind = \"environment\"\n";
-    for more in ["", normal_file, around] {
+    let turning = "[motion]\nkind = \"drift\"\n";
+    let coming = "[motion]\nkind = \"approach\"\nto = 2\n";
+    let grooves = "[material]\nshading = \"torrance-sparrow\"\n";
+    for more in ["", normal_file, around, turning, coming, grooves] {
         let text = format!("{SMALLEST}{more}");
         let log = Log::new(Path::new("experiments/ribbed.toml"), &text);
         Spec::parse_with(&catalogue(), &log, &text).unwrap();
@@ -279,7 +330,7 @@ proptest! {
 
     #[test]
     fn any_value_under_any_key_is_read_or_refused(
-        key in "(title|seed|image|sweep|light|method|texture|texture\\.a|sweep\\.spp|sweep\\.lobe|sweep\\.texture|light\\.position|light\\.kind|image\\.width|material\\.lobe|texture\\.a\\.file|method\\.a\\.use)",
+        key in "(title|seed|image|sweep|light|method|texture|texture\\.a|sweep\\.spp|sweep\\.lobe|sweep\\.texture|light\\.position|light\\.kind|motion|motion\\.frames|image\\.width|material\\.lobe|texture\\.a\\.file|method\\.a\\.use)",
         value in "(3|-3|0x10|9999999999|1.5|inf|nan|true|\"\"|\"x\"|\"ribs\"|\\[\\]|\\[1, 1\\]|\\[\"ribs\"\\]|\\[\\[1\\]\\]|\\{\\}|\\{ a = 1 \\}|\\[\\{\\}, \\{\\}\\]|2020-01-01)",
     ) {
         if let Err(error) = parse(&format!("{key} = {value}\n")) {

@@ -21,6 +21,8 @@ pub struct TextureSpec {
     pub wrap: Wrap,
     /// How normals between texel centres are found.
     pub interpolation: Interpolation,
+    /// How many times it stands along each side of a tile.
+    pub repeat: usize,
 }
 
 /// Where bumps come from.
@@ -70,6 +72,10 @@ pub enum Reading {
 /// Texels along a side of a pattern.
 const MAX_SIDE: u64 = 4096;
 const DEFAULT_SIDE: usize = 128;
+/// Times a texture stands along a side of a tile.
+const MAX_REPEAT: u64 = 64;
+/// Texels along a side of a tile that a texture is repeated in.
+pub const MAX_REPEATED: usize = 8192;
 
 impl TextureSpec {
     /// A pattern with its defaults, named after it.
@@ -83,7 +89,7 @@ impl TextureSpec {
             seed,
         };
         let (wrap, interpolation) = (Wrap::default(), Interpolation::default());
-        Some(Self { name: pattern.to_owned(), source, wrap, interpolation })
+        Some(Self { name: pattern.to_owned(), source, wrap, interpolation, repeat: 1 })
     }
 
     /// Reads a `[texture.NAME]` table. `None` if it does not say what it is; that is logged.
@@ -95,11 +101,10 @@ impl TextureSpec {
     ) -> Option<Self> {
         let source = read_source(reader, catalogue, seed);
         let wraps = [("repeat", Wrap::Repeat), ("clamp", Wrap::Clamp)];
-        let interpolations =
-            [("bilinear", Interpolation::Bilinear), ("nearest", Interpolation::Nearest)];
         let wrap = reader.choice("wrap", &wraps);
-        let interpolation = reader.choice("interpolation", &interpolations);
-        Some(Self { name: name.to_owned(), source: source?, wrap, interpolation })
+        let interpolation = reader.choice("interpolation", &Interpolation::ALL);
+        let repeat = reader.whole("repeat", 1, 1, MAX_REPEAT) as usize;
+        Some(Self { name: name.to_owned(), source: source?, wrap, interpolation, repeat })
     }
 }
 

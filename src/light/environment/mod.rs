@@ -14,6 +14,8 @@ mod tables;
 pub use cone::PROBES;
 pub use file::{EnvironmentError, Read, inspect, read};
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::geometry::Vec3;
@@ -30,9 +32,9 @@ pub type Radiance = dyn Fn(&Vec3) -> f64 + Sync;
 /// Radiance by direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    map: Grid,
-    tables: Tables,
-    levels: Levels,
+    map: Arc<Grid>,
+    tables: Arc<Tables>,
+    levels: Arc<Levels>,
     /// Part of a turn from +x towards +y.
     turned: f64,
 }
@@ -51,6 +53,7 @@ impl Environment {
             values.iter().map(|&v| (f64::from(v) * intensity).min(f64::from(f32::MAX)) as f32);
         let map = Grid { width: 2 * height, height, values: values.collect() };
         let (tables, levels) = (Tables::of(&map), Levels::of(&map));
+        let (map, tables, levels) = (Arc::new(map), Arc::new(tables), Arc::new(levels));
         Self { map, tables, levels, turned: rotation / 360.0 }
     }
 
@@ -78,6 +81,11 @@ impl Environment {
             line.iter_mut().enumerate().for_each(|(column, value)| *value = pixel(row, column));
         });
         Self::new(height, &values, rotation, intensity)
+    }
+
+    /// The same environment, turned by further degrees about the vertical. It shares the picture.
+    pub fn turned(&self, degrees: f64) -> Self {
+        Self { turned: self.turned + degrees / 360.0, ..self.clone() }
     }
 
     /// Pixels down its picture.

@@ -177,7 +177,7 @@ impl Prefiltered for PeakMap {
         let share = filtered_share(level, at.lookup);
         let mut surface = MultipleSurface::new();
         self.each_weighted(at, share, |peak, weight| surface.add(peak, weight));
-        surface.add(unfiltered_lobe(&self.map, &self.base, at.u, at.v), 1.0 - share);
+        surface.add(unfiltered_lobe(&self.map, &self.base, at), 1.0 - share);
         surface
     }
 
@@ -196,7 +196,7 @@ impl Prefiltered for PeakMap {
             self.each_weighted(&at, share, |peak, weight| slots.push(peak, weight));
             let mut sum = slots.radiance(shading, half, light, view);
             if share < 1.0 {
-                let lobe = unfiltered_lobe(&self.map, &self.base, at.u, at.v).faded(1.0 - share);
+                let lobe = unfiltered_lobe(&self.map, &self.base, &at).faded(1.0 - share);
                 sum += lobe.radiance(shading, half, light, view);
             }
             *out = batch.irradiance[lane] * sum;
@@ -230,7 +230,7 @@ impl Slots {
     pub(super) fn radiance(&self, shading: Shading, half: V3, light: V3, view: V3) -> f32 {
         match shading {
             Shading::Ndf => self.sum(|peak| peak.density(half)),
-            Shading::Microfacet => self.sum(|peak| peak.radiance(shading, half, light, view)),
+            _ => self.sum(|peak| peak.radiance(shading, half, light, view)),
         }
     }
 

@@ -124,7 +124,7 @@ impl Prefiltered for ShadowedPeakMap {
 #[inline(always)]
 fn unfiltered_lobe_and_area(peaks: &PeakMap, at: &Footprint) -> (EllipticLobe, f32) {
     let [.., weight] = peaks.map.sample(at.u, at.v);
-    (unfiltered_lobe(&peaks.map, &peaks.base, at.u, at.v), weight)
+    (unfiltered_lobe(&peaks.map, &peaks.base, at), weight)
 }
 
 /// Puts a pyramid's peaks behind what they collect; `None` if cancelled.

@@ -70,6 +70,7 @@ const CARDS: [Card; 3] = [
         limits: "one Gaussian: several peaks become one hill, and heavy tails (GGX) are out of reach",
         normalised: true,
         keeps_roughness: true,
+        fractal: false,
         precision: 1e-3,
     },
     Card {
@@ -81,6 +82,7 @@ const CARDS: [Card; 3] = [
                  Gaussian: several peaks become one hill",
         normalised: true,
         keeps_roughness: true,
+        fractal: false,
         precision: 1e-3,
     },
     Card {
@@ -91,6 +93,7 @@ const CARDS: [Card; 3] = [
         limits: "not normalised over the sphere: brightness drifts with roughness",
         normalised: false,
         keeps_roughness: true,
+        fractal: false,
         precision: 1e-3,
     },
 ];

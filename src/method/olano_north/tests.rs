@@ -156,11 +156,7 @@ fn what_is_read_is_a_covariance_whatever_was_written() {
 }
 
 fn options(entry: &Entry, set: &[(&'static str, Value)]) -> Box<dyn Method> {
-    let mut values = Values::defaults(entry.parameters);
-    for &(name, value) in set {
-        values.set(name, value);
-    }
-    (entry.build)(&values)
+    (entry.build)(&Values::defaults(entry.parameters).with(set))
 }
 
 #[test]

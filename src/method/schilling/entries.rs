@@ -18,6 +18,7 @@ pub const CARDS: [Card; 4] = [
                  rough in different directions get wider lobes than all of them together",
         normalised: true,
         keeps_roughness: true,
+        fractal: false,
         precision: 1e-3,
     },
     Card {
@@ -28,6 +29,7 @@ pub const CARDS: [Card; 4] = [
         limits: "one lobe: distributions with several peaks become one broad hill",
         normalised: true,
         keeps_roughness: true,
+        fractal: false,
         precision: 1e-3,
     },
     Card {
@@ -38,6 +40,7 @@ pub const CARDS: [Card; 4] = [
         limits: "not normalised: rough footprints shine too brightly, and widths do not pool",
         normalised: false,
         keeps_roughness: true,
+        fractal: false,
         precision: 1e-3,
     },
     Card {
@@ -50,6 +53,7 @@ pub const CARDS: [Card; 4] = [
                  literally it is widest along a wrong axis",
         normalised: false,
         keeps_roughness: true,
+        fractal: false,
         precision: TRIANGULAR,
     },
 ];

@@ -138,11 +138,7 @@ fn read_literally_it_is_widest_along_a_wrong_axis() {
 }
 
 fn options(entry: &Entry, set: &[(&'static str, Value)]) -> Box<dyn Method> {
-    let mut values = Values::defaults(entry.parameters);
-    for &(name, value) in set {
-        values.set(name, value);
-    }
-    (entry.build)(&values)
+    (entry.build)(&Values::defaults(entry.parameters).with(set))
 }
 
 #[test]

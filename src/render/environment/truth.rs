@@ -46,8 +46,9 @@ impl<'a> BruteForce<'a> {
     /// What a sample sees; None if it misses.
     pub fn sees(&self, point: &Point) -> Option<Seen> {
         let sight = self.view.sight(point.x, point.y, 1.0)?;
-        let [x, y, z, weight] =
-            self.map.sample(sight.footprint.u, sight.footprint.v).map(f64::from);
+        let at = &sight.footprint;
+        let [x, y, z, weight] = self.map.sample(at.u, at.v);
+        let [x, y, z] = at.bend.turn([x, y, z]).map(f64::from);
         let normal = sight.frame.world_from_local(Vec3::new(x, y, z)).normalize();
         let [choice, u1, u2] = self.choices.of(point.stream, point.index);
         let eye = sight.view;
@@ -66,7 +67,7 @@ impl<'a> BruteForce<'a> {
         let density = self.base.density(normal.cross(&facet).norm_squared() / (cosine * cosine));
         let drawn = (1.0 - SHARE) * density * cosine
             + SHARE * self.environment.density(&mirrored) * 4.0 * facing;
-        let area = if drawn > 0.0 { weight * density * facing / drawn } else { 0.0 };
+        let area = if drawn > 0.0 { f64::from(weight) * density * facing / drawn } else { 0.0 };
         let light = if area > 0.0 { area * self.environment.radiance(&mirrored) } else { 0.0 };
         Some(Seen { light, area })
     }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{fields, file_name, images, plot};
+use super::{fields, file_name, images, net, plot, sketch};
 use crate::evidence::{Drawing, Evidence, Figure, Images};
 use crate::report::figure::{self, FrameImages};
 use crate::report::words::DISTRIBUTIONS_ALONE;
@@ -74,6 +74,8 @@ fn draw(row: &str, figure: &Figure) -> Drawn {
         Drawing::Chart(chart) => (plot::draw(chart), ""),
         Drawing::Fields(list) => (fields::draw(list), ""),
         Drawing::Lobes(plots) => (polar::draw(plots), READING_LOBES),
+        Drawing::Nets(tables) => (net::draw(tables), ""),
+        Drawing::Sketches(list) => (sketch::draw(list), ""),
     };
     Drawn {
         figure: figure::Figure::drawing(file, caption, &canvas),

@@ -5,8 +5,10 @@ mod data;
 mod fields;
 mod figures;
 mod images;
+mod net;
 mod page;
 mod plot;
+mod sketch;
 
 #[cfg(test)]
 mod fixture;

@@ -134,6 +134,8 @@ fn odd_evidence_has_a_report() {
         Drawing::Discs(vec![]),
         Drawing::Fields(vec![]),
         Drawing::Lobes(vec![]),
+        Drawing::Nets(vec![]),
+        Drawing::Sketches(vec![]),
     ];
     let figures = drawings.into_iter().map(|drawing| Figure::new(&long, long.clone(), drawing));
     let exhibit = Exhibit {

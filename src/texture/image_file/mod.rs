@@ -18,7 +18,7 @@ pub use heights::{HeightReading, read_height_map};
 pub use luminance::{Luminance, read_luminance};
 pub use normals::{Green, NormalReading, Zero, read_normal_map};
 pub use preview::{Preview, preview};
-pub use write::write_normal_map_png16;
+pub use write::{Codes, write_normal_map_exr, write_normal_map_png, write_normal_map_png16};
 
 /// A map from a file, and what is worth knowing about it.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,14 @@ const LEVELS: Levels = Levels { width: 64, height: 64, wrap: Wrap::Repeat, top: 
 
 fn footprint(lookup: Lookup, x: [f32; 2], y: [f32; 2]) -> Footprint {
     let texels = |c: [f32; 2]| c.map(|c| c / 64.0);
-    Footprint { u: 0.43, v: 0.61, along_x: texels(x), along_y: texels(y), lookup }
+    Footprint {
+        u: 0.43,
+        v: 0.61,
+        along_x: texels(x),
+        along_y: texels(y),
+        lookup,
+        ..Footprint::default()
+    }
 }
 
 fn cells(at: &Footprint, levels: &Levels) -> Vec<Cell> {
