@@ -109,7 +109,8 @@ impl Bezier {
         let (along_u, along_v) = (held(along_u, v)?, held(along_v, u)?);
         let cross = along_u.cross(&along_v);
         let length = cross.norm();
-        if !(length > LEAST_SINE * along_u.norm() * along_v.norm()) {
+        let plain = length > LEAST_SINE * along_u.norm() * along_v.norm();
+        if !plain {
             return None;
         }
         let normal = cross / length;
