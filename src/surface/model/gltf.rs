@@ -77,6 +77,15 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Model
         return Err(wrong(path, "", what, "export the model without it, uncompressed"));
     }
     json.extensions_required.clear();
+    // The crate's own check of vertices takes for granted that they are there.
+    let accessors = json.accessors.len();
+    for (mesh, primitives) in json.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        let all = primitives.iter().flat_map(|primitive| primitive.attributes.values());
+        if let Some(beyond) = all.map(|index| index.value()).find(|&index| index >= accessors) {
+            let what = format!("accessor {beyond} of {accessors}");
+            return Err(wrong(path, format!(", mesh {mesh}"), what, AGAIN));
+        }
+    }
     let document = Document::from_json(json).map_err(broken)?;
     Ok((document, blob))
 }

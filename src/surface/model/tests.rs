@@ -268,6 +268,11 @@ fn what_is_wrong_with_a_gltf_is_told_with_its_place() {
         s.json["extensionsUsed"] = serde_json::json!(["KHR_draco_mesh_compression"]);
     });
     refused("a.glb", &packed, &["KHR_draco_mesh_compression"]);
+    refused(
+        "a.glb",
+        &set("/meshes/0/primitives/0/attributes/POSITION", 9.into()),
+        &[", mesh 0", "accessor 9 of 3"],
+    );
     refused("a.glb", &broken(&|s| s.bytes[80] = 9), &[place, "vertex 9 of 4"]);
     refused(
         "a.glb",
