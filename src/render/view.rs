@@ -4,7 +4,7 @@ use crate::geometry::{Frame, Kernel, Vec3, vectorised};
 use crate::light::Light;
 use crate::lobe::Shading;
 use crate::method::{BATCH, Batch, Bends};
-use crate::surface::{Shape, Surface, displacement};
+use crate::surface::{Hit, Shape, Surface, displacement};
 use crate::texture::{Footprint, Lookup, Wrap};
 
 use super::Camera;
@@ -158,9 +158,14 @@ where
         let (camera, wrap) = (view.camera, view.wrap);
         let steps = camera.ray_steps();
         // The whole width, whatever the length: lanes past it are filled with numbers of no use.
+        let asked = if S::SEARCHES { batch.len } else { BATCH };
         for i in 0..BATCH {
             let ray = camera.ray(x[i], y[i]);
-            let (hit, hits) = self.surface.trace(camera.origin(), ray);
+            let (hit, hits) = if i < asked {
+                self.surface.trace(camera.origin(), ray)
+            } else {
+                (Hit::nowhere(), false)
+            };
             let (light, irradiance) = (self.light)(hit.point);
             let view = ray * (-1.0 / ray.norm_squared().sqrt());
             let frame = &hit.frame;

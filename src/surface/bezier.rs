@@ -62,12 +62,15 @@ impl Bezier {
     /// P, P_u and P_v at (u, v).
     pub fn at(&self, u: f64, v: f64) -> PatchPoint {
         let (row, slope) = (bernstein(v), bernstein_slopes(v));
-        let along = self.points.map(|line| weigh(&line, &row));
-        let across = self.points.map(|line| weigh(&differences(&line), &slope));
+        let [a, b, c, d] = &self.points;
+        let along = [weigh(a, &row), weigh(b, &row), weigh(c, &row), weigh(d, &row)];
+        let change = |line| weigh(&differences(line), &slope);
+        let across = [change(a), change(b), change(c), change(d)];
+        let weights = bernstein(u);
         PatchPoint {
-            point: weigh(&along, &bernstein(u)),
+            point: weigh(&along, &weights),
             along_u: weigh(&differences(&along), &bernstein_slopes(u)),
-            along_v: weigh(&across, &bernstein(u)),
+            along_v: weigh(&across, &weights),
         }
     }
 
@@ -106,7 +109,8 @@ impl Bezier {
         let (along_u, along_v) = (held(along_u, v)?, held(along_v, u)?);
         let cross = along_u.cross(&along_v);
         let length = cross.norm();
-        if !(length > LEAST_SINE * along_u.norm() * along_v.norm()) {
+        let plain = length > LEAST_SINE * along_u.norm() * along_v.norm();
+        if !plain {
             return None;
         }
         let normal = cross / length;
@@ -134,12 +138,18 @@ fn bernstein_slopes(t: f64) -> [f64; 3] {
     [3.0 * s * s, 6.0 * t * s, 3.0 * t * t]
 }
 
+#[inline(always)]
 fn differences(line: &[Vec3; 4]) -> [Vec3; 3] {
     [line[1] - line[0], line[2] - line[1], line[3] - line[2]]
 }
 
+#[inline(always)]
 fn weigh<const N: usize>(points: &[Vec3; N], weights: &[f64; N]) -> Vec3 {
-    points.iter().zip(weights).fold(Vec3::zeros(), |sum, (point, &weight)| sum + point * weight)
+    let mut sum = points[0] * weights[0];
+    for k in 1..N {
+        sum += points[k] * weights[k];
+    }
+    sum
 }
 
 #[cfg(test)]

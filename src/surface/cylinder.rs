@@ -39,14 +39,16 @@ impl Surface for Cylinder {
         let a = direction.x * direction.x + direction.y * direction.y;
         let b = origin.x * direction.x + origin.y * direction.y;
         let c = origin.x * origin.x + origin.y * origin.y - 1.0;
-        let root = (b * b - a * c).max(0.0).sqrt();
+        let discriminant = b * b - a * c;
+        let root = discriminant.max(0.0).sqrt();
         // The two roots without cancellation: one has the sum, the other follows from their product c/a.
         let sum = -(b + root.copysign(b));
         let (one, other) = (sum / a, c / sum);
         let meets = |t: f64| t > 0.0 && t.is_finite() && (origin.z + t * direction.z).abs() <= HALF;
         let (near, far) = if one < other { (one, other) } else { (other, one) };
-        let misses = !(b * b - a * c >= 0.0) || !(meets(near) || meets(far));
-        if misses {
+        // A NaN misses.
+        let hits = discriminant >= 0.0 && (meets(near) || meets(far));
+        if !hits {
             return (Hit::nowhere(), false);
         }
         let t = if meets(near) { near } else { far };

@@ -60,6 +60,9 @@ impl Hit {
 
 /// A surface with texture coordinates.
 pub trait Surface: Clone + Send + Sync + std::fmt::Debug {
+    /// Whether [`Surface::trace`] searches: too dear for rays of which nobody asks, and no vector code anyway.
+    const SEARCHES: bool = false;
+
     /// The first hit at t > 0 of the ray `origin` + t·`direction` (any length), seen from outside, and
     /// whether there is one; if not, the hit holds numbers of no meaning. Without a branch, so that a
     /// loop over rays can become vector code.
@@ -158,6 +161,8 @@ impl Shape {
 
 /// The same, for code that takes any surface.
 impl Surface for Shape {
+    const SEARCHES: bool = true;
+
     fn trace(&self, origin: Vec3, direction: Vec3) -> (Hit, bool) {
         Shape::trace(self, origin, direction)
     }

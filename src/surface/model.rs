@@ -173,9 +173,9 @@ impl Soup {
 impl Point {
     /// From y up to z up: the front, +z, comes to face −y.
     fn turn(&mut self) {
-        let turned = |[x, y, z]: [f32; 3]| [x, -z, y];
-        self.position = turned(self.position);
-        self.normal = self.normal.map(turned);
+        let [x, y, z] = self.position;
+        self.position = [x, -z, y];
+        self.normal = self.normal.map(|[x, y, z]| [x, -z, y]);
         self.tangent = self.tangent.map(|[x, y, z, sign]| [x, -z, y, sign]);
     }
 }

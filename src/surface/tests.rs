@@ -51,7 +51,7 @@ fn numbers(hit: &Hit, direction: Vec3) -> Vec<f64> {
 fn surrounded(surface: &Shape, origin: Vec3, direction: Vec3, hit: &Hit) -> bool {
     let sides = Frame::about(direction.normalize());
     (0..8).all(|k| {
-        let (s, c) = (0.7853 * f64::from(k)).sin_cos();
+        let (s, c) = (std::f64::consts::FRAC_PI_4 * f64::from(k)).sin_cos();
         let aside =
             surface.intersect(origin, direction + (sides.tangent * c + sides.bitangent * s) * 0.01);
         aside.is_some_and(|aside| {

@@ -88,8 +88,8 @@ impl Buffers {
     ) -> Result<Vec<T>, Fault> {
         let stride = view.stride().unwrap_or(size).max(1);
         let buffer = self.bytes.get(view.buffer().index()).map_or(&[][..], Vec::as_slice);
-        let end = view.offset().checked_add(view.length()).unwrap_or(usize::MAX);
-        let start = view.offset().checked_add(offset).unwrap_or(usize::MAX);
+        let end = view.offset().saturating_add(view.length());
+        let start = view.offset().saturating_add(offset);
         let bytes = buffer.get(start..end.min(buffer.len())).unwrap_or(&[]);
         let there = if bytes.len() < size { 0 } else { (bytes.len() - size) / stride + 1 };
         if there < count {

@@ -269,7 +269,8 @@ impl Scene<'_> {
             let wide = |c: [f32; 3]| Vec3::from(c.map(f64::from));
             let narrow = |v: Vec3| [v.x, v.y, v.z].map(|c| c as f32);
             let position = linear * wide(point.position) + shift;
-            if !(position.amax() <= f64::from(FURTHEST)) {
+            let within = position.iter().all(|c| c.abs() <= f64::from(FURTHEST));
+            if !within {
                 return Err(format!("vertex {k} is not finite, or beyond 10³⁰"));
             }
             let normal = point.normal.map(wide).map(|n| {

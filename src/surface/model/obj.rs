@@ -27,12 +27,10 @@ type Fault = (String, &'static str);
 /// The first line that is wrong, or that there is no face at all.
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Soup, ModelError> {
     let mut reader = Reader::default();
-    let mut number = 0;
-    for line in bytes.split(|&byte| byte == b'\n') {
-        number += 1;
+    for (k, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
         // Names and comments may be in any encoding; what is read is plain.
         let text = String::from_utf8_lossy(line);
-        let place = || format!(", line {number}");
+        let place = || format!(", line {}", k + 1);
         reader.line(&text).map_err(|(what, help)| wrong(path, place(), what, help))?;
         if reader.soup.triangles.len() > MOST_TRIANGLES {
             return Err(too_many(path));
@@ -132,7 +130,8 @@ fn numbers<'t, const N: usize>(
         let word =
             words.next().ok_or_else(|| (format!("{k} numbers where {N} are needed"), HELP))?;
         let read: f32 = word.parse().map_err(|_| (format!("`{word}` is no number"), HELP))?;
-        if !(read.abs() <= FURTHEST) {
+        let within = read.abs() <= FURTHEST;
+        if !within {
             let what = format!("the number {word} is not finite, or beyond 10³⁰");
             return Err((what, "correct the model"));
         }

@@ -38,7 +38,7 @@ fn it_is_symmetrical() {
             let mirrored = |x: f64, y: f64| {
                 let want = Vec3::new(x, y, point.z);
                 let of = |p: &Vec3| (p - want).amax() < 1e-12;
-                all.iter().any(|c| c.patch.points().iter().flatten().any(|p| of(p)))
+                all.iter().any(|c| c.patch.points().iter().flatten().any(of))
             };
             assert!(mirrored(-x, y) && mirrored(x, -y) && mirrored(y, x));
         }
