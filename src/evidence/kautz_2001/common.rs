@@ -39,6 +39,12 @@ pub fn several() -> NdfImage {
         .map(|(normal, part)| base.about(normal, part)))
 }
 
+/// An NDF to shade by: "a diffuse component (although not a Lambertian diffuse component) can be incorporated directly
+/// into the NDF" (§6).
+pub fn with_diffuse(ndf: &NdfImage) -> Arc<NdfImage> {
+    Arc::new(ndf.with_floor(0.4))
+}
+
 /// The synthesis from an NDF, with so many lattice cells a tile.
 pub fn synthesis(ndf: NdfImage, cells: u32, seed: u64) -> Arc<Synthesis> {
     Arc::new(Synthesis::new(ndf, Noise { cells: [cells; 2], seed, ..Noise::default() }))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::common::{ALL, anisotropic, maps, mean, pictures, shot, synthesis, view};
+use super::common::{ALL, anisotropic, maps, mean, pictures, shot, synthesis, view, with_diffuse};
 use crate::evidence::{Claim, Exhibit, Halted, Panel, Row, Table, Task};
 use crate::lobe::NdfImage;
 use crate::method::kautz::Synthesised;
@@ -37,9 +37,10 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let of = synthesis(anisotropic(), CELLS, task.seed);
     let even = NdfImage::from_fn(64, |_| 1.0).expect("a disc has density");
     let uniform = synthesis(even, CELLS, task.seed);
-    let bumps = Synthesised::new(Arc::clone(&of), ALL);
-    let wrong = Synthesised::new(uniform, ALL).shaded_by(Arc::clone(&of.ndf));
-    let smooth = Synthesised::new(Arc::clone(&of), 0.0);
+    let ndf = with_diffuse(&of.ndf);
+    let bumps = Synthesised::new(Arc::clone(&of), ALL).shaded_by(Arc::clone(&ndf));
+    let wrong = Synthesised::new(uniform, ALL).shaded_by(Arc::clone(&ndf));
+    let smooth = Synthesised::new(Arc::clone(&of), 0.0).shaded_by(ndf);
     let mut panels = vec![];
     let head = [
         "distance",

@@ -7,12 +7,13 @@ use super::common::{apart, isotropic, maps, mean, pictures, shot, synthesis, vie
 use crate::evidence::{
     Axis, Chart, Claim, Drawing, Exhibit, Figure, Halted, Panel, Row, Series, Table, Task,
 };
-use crate::lobe::BaseLobe;
+use crate::lobe::{BaseLobe, MultipleSurface};
 use crate::method::kautz::SinglePass;
 use crate::method::{Prefiltered, Silent, brute_force};
 use crate::render::{Camera, View, direction};
 use crate::surface::{Shape, teapot_mesh};
 use crate::synthesis::{Bits, Synthesis, octaves_for};
+use crate::texture::Footprint;
 
 /// The row.
 pub const ROW: Row = Row {
@@ -125,8 +126,8 @@ impl Pass {
     }
 }
 
-/// One sample a pixel beside many: RMS over the mean, of the single pass, and of the same bumps as a normal map of their
-/// own texels that is not filtered.
+/// One sample a pixel beside many of its footprint: RMS over the mean, of the single pass, and of the same bumps as a
+/// normal map of their own texels that is not filtered.
 fn aliasing(
     view: &View,
     synthesis: &Arc<Synthesis>,
@@ -138,14 +139,28 @@ fn aliasing(
     let base = BaseLobe::BlinnPhong { exponent: 100.0 };
     let bare = brute_force().prefilter(&map, &base, &Silent).map_err(|_| Halted)?;
     let of = |bumps: &dyn Prefiltered| -> Result<f64, Halted> {
-        Ok(apart(&shot(view, bumps, 1, task)?, &shot(view, bumps, MANY, task)?))
+        Ok(apart(&shot(view, bumps, 1, task)?, &shot(view, &Whole(bumps), MANY, task)?))
     };
     Ok([of(pass)?, of(bare.as_ref())?])
 }
 
+/// Bumps whose many samples a pixel each have the footprint of the whole pixel: what they differ by is what aliases.
+struct Whole<'a>(&'a dyn Prefiltered);
+
+impl Prefiltered for Whole<'_> {
+    fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
+    fn lobes_at(&self, at: &Footprint) -> MultipleSurface {
+        let side = f64::from(MANY).sqrt() as f32;
+        let [along_x, along_y] = [at.along_x, at.along_y].map(|axis| axis.map(|c| c * side));
+        self.0.lobes_at(&Footprint { along_x, along_y, ..*at })
+    }
+}
+
 fn aliasing_table(looked: &[[f64; 2]]) -> Table {
-    let caption = "One sample a pixel beside 64 of the same, RMS over the mean. Samples of 64 are smaller and show more \
-                   octaves.";
+    let caption = "One sample at a pixel's centre beside 64 spread over it, each filtered as widely: RMS over the mean.";
     let head = ["exponent of the NDF", "filtered indices", "an unfiltered normal map"];
     let mut table = Table::new("aliasing", caption, &head);
     for (exponent, [pass, bare]) in [12.0, 100.0].into_iter().zip(looked) {
@@ -215,7 +230,6 @@ fn times(
 /// Radiance along a line across a bump, seen so near that indices of 8 bits step.
 fn rings(synthesis: &Arc<Synthesis>) -> Figure {
     use crate::lobe::Spread;
-    use crate::texture::Footprint;
     const STEPS: usize = 600;
     let series = PASSES[..3].iter().map(|pass| {
         let built = pass.of(synthesis);

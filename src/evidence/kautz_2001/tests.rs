@@ -12,5 +12,5 @@ fn the_table_row_finds_normals_that_follow_the_ndf() {
     let exhibit = (row.make)(&task).unwrap();
     let follows = &exhibit.claims[0];
     assert_eq!(follows.verdict, Verdict::Reproduced, "{follows:?}");
-    assert_eq!(exhibit.tables[0].rows.len(), 12);
+    assert_eq!(exhibit.tables[0].rows.len(), 15);
 }
