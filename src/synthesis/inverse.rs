@@ -2,8 +2,9 @@
 
 use crate::lobe::NdfImage;
 
-/// The cumulative distributions of an NDF on the (x, y) map: the marginal M(x), and the conditional C(y|x) of each
-/// column of pixels. Densities are even within a pixel, so both are piecewise linear in x and in y.
+/// The cumulative distributions of an NDF on the (x, y) map: the marginal M(x), and the conditional C(y|x). Densities
+/// are even within a pixel, so M and the C of a column of pixels are piecewise linear; between the middles of two
+/// columns C is blended, so that normals do not jump from column to column.
 ///
 /// Coordinates here are x_n, y_n in [0, 1]: (n + 1)/2 of a normal's x and y.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,24 +22,35 @@ impl Cumulative {
         let side = ndf.side();
         let column = |i: usize| (0..side).map(move |j| f64::from(ndf.values()[j * side + i]));
         let masses: Vec<f64> = (0..side).map(|i| column(i).sum()).collect();
-        let conditional = (0..side).flat_map(|i| cumulated(column(i))).collect();
+        // A column without mass is never met, but is blended with its neighbour: it is like the nearest that has some.
+        let nearest = |i: usize| {
+            let has = |k: &usize| masses[*k] > 0.0;
+            (0..side).filter(has).min_by_key(|k| k.abs_diff(i)).unwrap_or(i)
+        };
+        let conditional = (0..side).flat_map(|i| cumulated(column(nearest(i)))).collect();
         Self { side, marginal: cumulated(masses.into_iter()), conditional }
     }
 
     /// x_n = M⁻¹(u₁), y_n = C⁻¹(u₂ | x_n), for u₁ and u₂ in [0, 1].
     pub fn place(&self, [u1, u2]: [f64; 2]) -> [f64; 2] {
-        let x = inverse(&self.marginal, u1);
-        [x, inverse(self.of_column(x), u2)]
+        let x = inverse(self.side, |k| self.marginal[k], u1);
+        [x, inverse(self.side, self.conditional_at(x), u2)]
     }
 
     /// u₁ = M(x_n), u₂ = C(y_n | x_n): the way back (§7). Where the NDF is 0, nothing leads back to exactly (x_n, y_n).
     pub fn uniform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [forward(&self.marginal, x), forward(self.of_column(x), y)]
+        [forward(self.side, |k| self.marginal[k], x), forward(self.side, self.conditional_at(x), y)]
     }
 
-    fn of_column(&self, x: f64) -> &[f64] {
-        let column = ((x * self.side as f64) as usize).min(self.side - 1);
-        &self.conditional[column * (self.side + 1)..][..=self.side]
+    /// C at the edges of rows, at some x_n.
+    fn conditional_at(&self, x: f64) -> impl Fn(usize) -> f64 {
+        let last = self.side - 1;
+        let place = (x * self.side as f64 - 0.5).clamp(0.0, last as f64);
+        let low = (place as usize).min(last.saturating_sub(1));
+        let part = place - low as f64;
+        let edges = |column: usize| &self.conditional[column * (self.side + 1)..][..=self.side];
+        let (low, high) = (edges(low), edges((low + 1).min(last)));
+        move |k| low[k] + part * (high[k] - low[k])
     }
 }
 
@@ -60,27 +72,29 @@ fn cumulated(masses: impl ExactSizeIterator<Item = f64>) -> Vec<f64> {
     sums
 }
 
-/// Where a rising piecewise linear function over [0, 1], given at equal steps, reaches `value`; the first such place
-/// that has any mass.
-pub(super) fn inverse(cumulative: &[f64], value: f64) -> f64 {
-    let steps = cumulative.len() - 1;
-    // The last edge at or below it before it rises on; at 1 the place where all mass has been met.
-    let above = match value < 1.0 {
-        true => cumulative.partition_point(|c| *c <= value),
-        false => cumulative.partition_point(|c| *c < 1.0),
+/// Where a rising piecewise linear function over [0, 1], given at the edges of so many equal steps, reaches `value`; the
+/// first such place that has any mass.
+pub(super) fn inverse(steps: usize, cumulative: impl Fn(usize) -> f64, value: f64) -> f64 {
+    // The first edge above it; at 1 the place where all mass has been met.
+    let met = |k: usize| {
+        let sum = cumulative(k);
+        if value < 1.0 { sum > value } else { sum >= 1.0 }
     };
-    let above = above.clamp(1, steps);
-    let (low, high) = (cumulative[above - 1], cumulative[above]);
+    let (mut below, mut above) = (0, steps);
+    while above - below > 1 {
+        let middle = (below + above) / 2;
+        if met(middle) { above = middle } else { below = middle }
+    }
+    let (low, high) = (cumulative(below), cumulative(above));
     let within = if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
-    (above as f64 - 1.0 + within) / steps as f64
+    (below as f64 + within) / steps as f64
 }
 
 /// Such a function at `place` in [0, 1].
-pub(super) fn forward(cumulative: &[f64], place: f64) -> f64 {
-    let steps = cumulative.len() - 1;
+pub(super) fn forward(steps: usize, cumulative: impl Fn(usize) -> f64, place: f64) -> f64 {
     let at = place.clamp(0.0, 1.0) * steps as f64;
     let below = (at as usize).min(steps - 1);
-    let (low, high) = (cumulative[below], cumulative[below + 1]);
+    let (low, high) = (cumulative(below), cumulative(below + 1));
     low + (at - below as f64) * (high - low)
 }
 

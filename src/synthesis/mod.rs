@@ -24,7 +24,7 @@ pub use inverse::Cumulative;
 pub use table::{ENTRIES, LookupTable, MicroFrame, frame_about};
 pub use values::{NoiseValues, index};
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use crate::geometry::noise::{Turbulence, blend};
 use crate::lobe::NdfImage;
@@ -45,7 +45,7 @@ pub struct Noise {
 impl Default for Noise {
     /// 16 cells, each octave half as high as the last, seed 1.
     fn default() -> Self {
-        Self { cells: [16; 2], gain: 0.5, seed: 1 }
+        Self { cells: [16; 2], gain: USUAL_GAIN, seed: 1 }
     }
 }
 
@@ -58,13 +58,22 @@ pub struct Normals {
     pub cumulative: Cumulative,
 }
 
+/// Height of each octave over that of the one before, usually.
+const USUAL_GAIN: f64 = 0.5;
+
+fn measured(gain: f64) -> [NoiseValues; 2] {
+    OFFSETS.map(|offset| NoiseValues::measured(gain, offset))
+}
+
 /// Where the lattices of both turbulences stand, see [`Turbulence::offset`].
 const OFFSETS: [f64; 2] = [0.0, 0.25];
 
 impl Normals {
     /// Of this NDF, for noise of this gain.
     pub fn new(ndf: &NdfImage, gain: f64) -> Self {
-        let values = OFFSETS.map(|offset| NoiseValues::measured(gain, offset));
+        // Nearly always the usual gain: measured once.
+        static USUAL: LazyLock<[NoiseValues; 2]> = LazyLock::new(|| measured(USUAL_GAIN));
+        let values = if gain == USUAL_GAIN { USUAL.clone() } else { measured(gain) };
         Self { values, cumulative: Cumulative::of(ndf) }
     }
 

@@ -63,13 +63,13 @@ impl NoiseValues {
     /// G(r): the part of values below r.
     #[inline]
     pub fn below(&self, r: f64) -> f64 {
-        forward(&self.cumulative, r)
+        forward(BINS, |k| self.cumulative[k], r)
     }
 
     /// G⁻¹(u): the value that a part u of them is below.
     #[inline]
     pub fn quantile(&self, u: f64) -> f64 {
-        inverse(&self.cumulative, u)
+        inverse(BINS, |k| self.cumulative[k], u)
     }
 
     /// [mean, variance, skewness, excess kurtosis] of the values.

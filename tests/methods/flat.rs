@@ -63,7 +63,9 @@ fn a_flat_map_gives_the_same_lobe_at_every_level() {
                     for lobe in surface(level).lobes() {
                         let [x, y, z] = lobe.axis();
                         let lean = (x / z).abs().max((y / z).abs());
-                        let most = if zero == Zero::Above { 0.0 } else { within };
+                        // Indices are kept in single precision.
+                        let rounding = if case.card.fractal { 1e-5 } else { 0.0 };
+                        let most = if zero == Zero::Above { rounding } else { within };
                         assert!(lean <= most, "{} leans by {lean} from {normal:?}", case.name);
                     }
                     // Rounding: weights of a lookup add to 1 within 10⁻⁶, and D is off by its exponent
