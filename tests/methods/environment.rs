@@ -90,7 +90,9 @@ const LEANING: &str = "olano-north";
 fn white_stays_white_from_everywhere() {
     let white = environment("white", 16);
     let mut wrong = vec![];
-    let keeping = |case: &Case| case.card.normalised && !case.name.starts_with(LEANING);
+    // A fractal surface sends what bumps below its texels send, not what the footprint's normals do.
+    let keeping =
+        |case: &Case| case.card.normalised && !case.card.fractal && !case.name.starts_with(LEANING);
     for case in cases().into_iter().filter(keeping) {
         for map in maps_to_try() {
             let levels = [-1.0, -0.4, 0.0, 0.7, 2.0, top(&map) as f32];
