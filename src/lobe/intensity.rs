@@ -1,4 +1,4 @@
-//! The intensity models that Blinn 1978 takes for granted: its reference [3], Blinn 1977, *Models of Light
+//! The intensity models that Blinn 1978 takes for granted: its reference \[3\], Blinn 1977, *Models of Light
 //! Reflection for Computer Synthesized Pictures*, and Phong 1975.
 //!
 //! Blinn 1977 has s = D G F / (N·E), D relative to its greatest value. Here D is normalised, and so it is a part of

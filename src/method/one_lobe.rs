@@ -71,6 +71,7 @@ impl<M: OneLobe<C>, const C: usize> Prefiltered for OneLobeMap<M, C> {
         surface
     }
 
+    #[allow(clippy::needless_range_loop, reason = "lanes run through several arrays at once")]
     fn shade(&self, batch: &Batch, shading: Shading, radiance: &mut Lane) {
         if !matches!(shading, Shading::Ndf | Shading::Microfacet) {
             return shade_by_lobes(self, batch, shading, radiance);
