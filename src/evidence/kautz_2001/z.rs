@@ -58,9 +58,11 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let shapes =
         [0.0, 1.0, 3.0, 8.0].map(|octaves| (octaves, Shaped::of(&synthesis, &places, octaves)));
     let convolved = Shaped::convolved(&synthesis);
+    let spreads = spreads(&synthesis, &places);
     let mut exhibit = ROW.exhibit();
     exhibit.claims = claims(&means, before, after, &shapes, &convolved);
-    exhibit.tables = vec![table(&shapes, &convolved)];
+    exhibit.claims.push(same_at_every_zoom(&spreads));
+    exhibit.tables = vec![table(&shapes, &convolved), spread_table(&spreads)];
     exhibit.figures = vec![chart(&means), highlight(&shapes, &convolved), zoom(&synthesis, task)?];
     exhibit.remarks = vec![
         "If normals m follow p and each is shaded by p about itself, the whole sends p convolved with p. For a narrow \
@@ -69,6 +71,59 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
             .into(),
     ];
     Ok(exhibit)
+}
+
+/// Side of the picture at zoom 1, in lattice cells of the first octave.
+const ACROSS: f64 = 64.0;
+
+/// How normals spread within a picture: [zoom, the root mean square of (x, y) away from the picture's own mean].
+fn spreads(synthesis: &Synthesis, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const WINDOWS: usize = 64;
+    let within = PLACES / WINDOWS;
+    let of = |step: usize| {
+        let zoom = libm::exp2(step as f64 / PER_DOUBLING);
+        let side = ACROSS / f64::from(CELLS) / zoom;
+        let mut sum = 0.0;
+        for window in 0..WINDOWS {
+            let [u0, v0] = places[window];
+            let normals: Vec<V3> = places[window * within..][..within]
+                .iter()
+                .map(|[u, v]| synthesis.indices(u0 + side * u, v0 + side * v, octaves(step)))
+                .map(|r| synthesis.normals.at(r))
+                .collect();
+            for c in 0..2 {
+                let all = normals.iter().map(|n| f64::from(n[c]));
+                let mean = all.clone().sum::<f64>() / within as f64;
+                sum += all.map(|x| (x - mean) * (x - mean)).sum::<f64>();
+            }
+        }
+        [zoom, (sum / PLACES as f64).sqrt()]
+    };
+    (0..STEPS).step_by(8).map(of).collect()
+}
+
+fn spread_table(spreads: &[[f64; 2]]) -> Table {
+    let caption = format!(
+        "Root mean square of the normals' x and y away from the mean of their picture, which is {ACROSS} cells of the first \
+         octave across at zoom 1."
+    );
+    let mut table = Table::new("spreads", caption, &["zoom", "spread of normals"]);
+    spreads.iter().for_each(|[zoom, spread]| table.push(vec![(*zoom).into(), (*spread).into()]));
+    table
+}
+
+fn same_at_every_zoom(spreads: &[[f64; 2]]) -> Claim {
+    let most = spreads.iter().fold(0.0f64, |most, s| most.max(s[1]));
+    Claim::near(
+        "spread of normals within the picture at the last zoom, of the greatest at any",
+        1.0,
+        spreads[spreads.len() - 1][1] / most,
+        0.2,
+    )
+    .because(
+        "no matter how close one zooms in, the microfacets always have the same distribution, says §1; but each octave is \
+         half as high as the one before, so near by a picture holds little but the slope of one large bump",
+    )
 }
 
 /// Octaves in at a step of the zoom.
@@ -284,7 +339,7 @@ fn zoom(synthesis: &Arc<Synthesis>, task: &Task) -> Result<Figure, Halted> {
     for power in 0..6 {
         let zoom = f64::from(1u32 << (2 * power));
         // From furthest away the image covers 64 lattice cells: two pixels each.
-        let side = 64.0 / f64::from(CELLS) / tiles;
+        let side = ACROSS / f64::from(CELLS) / tiles;
         let distance = side / (2.0 * libm::tan(5.0f64.to_radians())) / zoom;
         let camera = Camera::look_at(
             middle + direction(70.0, -90.0) * distance,
