@@ -133,7 +133,9 @@ fn paper(
 
 fn failed(error: RunError) -> Failure {
     match error {
-        RunError::Texture { .. } | RunError::Light(_) => Failure::wrong(error),
+        RunError::Texture { .. } | RunError::Surface(_) | RunError::Light(_) => {
+            Failure::wrong(error)
+        }
         RunError::Store(_) => Failure::failed(format!(
             "{error}; what was finished is kept: once there is room, the same command goes on"
         )),

@@ -43,6 +43,9 @@ pub enum RunError {
         /// Why.
         source: LoadError,
     },
+    /// A model could not be read.
+    #[error("[surface]: {0}")]
+    Surface(LoadError),
     /// An environment could not be read.
     #[error("[light]: {0}")]
     Light(#[from] EnvironmentError),
@@ -169,8 +172,13 @@ impl Run<'_> {
             (self.watch)(RunEvent::Working { what, work });
             let done = self.stage.tick();
             if let Some(source) = self.stage.world.resource_mut::<Failure>().0.take() {
-                let texture = self.spec.sweep.textures[scene.texture].name.clone();
-                return Err(RunError::Texture { texture, source });
+                // Textures were read before any work began.
+                return Err(if self.spec.surface.model.is_some() {
+                    RunError::Surface(source)
+                } else {
+                    let texture = self.spec.sweep.textures[scene.texture].name.clone();
+                    RunError::Texture { texture, source }
+                });
             }
             if done.is_empty() {
                 break;
