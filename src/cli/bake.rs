@@ -7,6 +7,7 @@ use super::Exit;
 use super::args::BakeArgs;
 use super::exit::{Failure, tell};
 use super::{output, surface};
+use crate::lobe::vector::turned;
 use crate::lobe::{EllipticLobe, Measure, MultipleSurface, NdfImage, Profile};
 use crate::pattern::square_cells;
 use crate::synthesis::{Agreement, Noise, Synthesis, octaves_for};
@@ -186,16 +187,14 @@ impl Family {
             Self::Beckmann => 0.5 * width * width,
             Self::Ggx => width * width,
         };
-        let (a, b, (sin, cos)) = (spread(u), spread(v), libm::sincos(degrees.to_radians()));
-        let turned =
-            [a * cos * cos + b * sin * sin, (a - b) * sin * cos, a * sin * sin + b * cos * cos];
+        let [a, b] = [u, v].map(spread);
         let profile = match self {
             // One exponent for both tails: that of the mean variance.
             Self::BlinnPhong => Profile::Student { exponent: (2.0 / (a + b)) as f32 },
             Self::Beckmann => Profile::Gaussian,
             Self::Ggx => Profile::Ggx,
         };
-        Ok(EllipticLobe::new([0.0, 0.0, 1.0], turned.map(|c| c as f32), 1.0, profile))
+        Ok(EllipticLobe::new([0.0, 0.0, 1.0], turned([a, b], degrees), 1.0, profile))
     }
 }
 

@@ -53,6 +53,17 @@ pub fn tangents(axis: V3) -> (V3, V3) {
 /// A symmetric 2×2 matrix (a b; b c) as [a, b, c].
 pub type Sym2 = [f32; 3];
 
+/// The matrix of spreads `along` and `across`, turned by an angle in degrees from x towards y.
+pub fn turned([along, across]: [f64; 2], degrees: f64) -> Sym2 {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    let matrix = [
+        along * cos * cos + across * sin * sin,
+        (along - across) * sin * cos,
+        along * sin * sin + across * cos * cos,
+    ];
+    matrix.map(|entry| entry as f32)
+}
+
 /// M · s
 #[inline(always)]
 pub fn times(m: Sym2, s: f32) -> Sym2 {

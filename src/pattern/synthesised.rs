@@ -1,6 +1,7 @@
 //! Bumps synthesised from a distribution of normals (Kautz et al. 2001).
 
 use super::{Bumps, Card, Entry};
+use crate::lobe::vector::turned;
 use crate::lobe::{EllipticLobe, MultipleSurface, NdfImage, Profile};
 use crate::parameter::{Domain, Parameter, Values};
 use crate::synthesis::{Noise, Synthesis, octaves_for};
@@ -97,16 +98,15 @@ pub fn square_cells([width, height]: [usize; 2], shorter: u32) -> [u32; 2] {
 }
 
 fn lobe(values: &Values) -> EllipticLobe {
-    let (sin, cos) = libm::sincos(values.number("direction").to_radians());
-    let [a, b] = ["alpha_u", "alpha_v"].map(|name| values.number(name) * values.number(name));
-    let turned =
-        [a * cos * cos + b * sin * sin, (a - b) * sin * cos, a * sin * sin + b * cos * cos];
     // A Gaussian's spread is the variance, α²/2; GGX's is α².
     let (profile, part) = match values.word("profile") {
         "ggx" => (Profile::Ggx, 1.0),
         _ => (Profile::Gaussian, 0.5),
     };
-    EllipticLobe::new([0.0, 0.0, 1.0], turned.map(|c| (part * c) as f32), 1.0, profile)
+    let spreads =
+        ["alpha_u", "alpha_v"].map(|name| part * values.number(name) * values.number(name));
+    let spread = turned(spreads, values.number("direction"));
+    EllipticLobe::new([0.0, 0.0, 1.0], spread, 1.0, profile)
 }
 
 #[cfg(test)]
