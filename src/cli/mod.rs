@@ -1,4 +1,4 @@
-//! Floor 8: the command line. One file a subcommand; they own arguments, standard output and exit codes.
+//! Floor 10: the command line. One file a subcommand; they own arguments, standard output and exit codes.
 
 mod args;
 mod bake;

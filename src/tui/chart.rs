@@ -1,0 +1,1 @@
+//! A chart with logarithmic axes, drawn in characters.

@@ -1,0 +1,1 @@
+//! What is on disk: experiments, and the reports of earlier runs.

@@ -1,0 +1,1 @@
+//! A table sorted by any column.
