@@ -156,7 +156,7 @@ fn an_interrupted_run_goes_on_at_its_frame_and_ends_the_same() {
     let (fresh, kept) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
     let (new, old) = (Arc::clone(&fresh), Arc::clone(&kept));
     let watch: Watcher = Arc::new(move |event| match event {
-        RunEvent::Scored { .. } => {
+        RunEvent::Scored { kept: false, .. } => {
             new.fetch_add(1, Ordering::Relaxed);
         }
         RunEvent::Advanced { kept: true, work } if work > 0.0 => {

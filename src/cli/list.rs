@@ -7,10 +7,9 @@ use serde_json::{Value as Json, json};
 use super::Exit;
 use super::args::ListArgs;
 use super::exit::Failure;
-use super::experiments;
 use crate::light::environment::maps;
 use crate::parameter::{Card, Domain, Parameter};
-use crate::{lobe, method, pattern};
+use crate::{job, lobe, method, pattern};
 
 /// Surfaces, with what they are.
 const SURFACES: [(&str, &str); 9] = [
@@ -46,10 +45,10 @@ pub(super) fn list(args: &ListArgs, out: &mut dyn Write) -> Result<Exit, Failure
 }
 
 fn sections() -> [(&'static str, Vec<(String, String)>); 6] {
-    let experiments = experiments::names()
+    let experiments = job::names()
         .into_iter()
         .map(|name| {
-            let loaded = experiments::load(&name);
+            let loaded = job::load(&name);
             let what = loaded.map_or("has errors: run it to see them".into(), |e| e.title().into());
             (name, what)
         })
@@ -94,7 +93,7 @@ fn as_json() -> Json {
         .map(|s| json!({ "name": s.name, "source": s.source, "summary": s.meaning }))
         .collect();
     json!({
-        "experiments": experiments::names(),
+        "experiments": job::names(),
         "methods": methods,
         "patterns": patterns,
         "surfaces": surfaces,

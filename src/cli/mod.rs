@@ -4,7 +4,6 @@ mod args;
 mod bake;
 mod compare;
 mod exit;
-mod experiments;
 mod fit;
 mod list;
 mod lobes;

@@ -65,7 +65,13 @@ impl Bar {
                 self.show(&state, 0.0);
             }
             RunEvent::Noted { text } => self.bar.suspend(|| anstream::eprintln!("note: {text}")),
-            RunEvent::Scored { .. } => {}
+            RunEvent::Reporting => self.bar.set_message("writing the report"),
+            RunEvent::Scored { .. }
+            | RunEvent::Converged { .. }
+            | RunEvent::Probed { .. }
+            | RunEvent::Flickered { .. }
+            | RunEvent::Paused
+            | RunEvent::Resumed => {}
         }
     }
 

@@ -6,12 +6,12 @@ use std::path::Path;
 use super::Exit;
 use super::args::RenderArgs;
 use super::exit::Failure;
-use super::experiments;
 use super::output;
 use super::progress::Spinner;
 use super::surface::{self, Wanted};
 use crate::experiment::preview::{self, Wish};
 use crate::experiment::spec::{Spec, no_such};
+use crate::job;
 use crate::method;
 use crate::render::{Film, Portrait};
 
@@ -84,7 +84,7 @@ fn spec(args: &RenderArgs) -> Result<Spec, Failure> {
         }
         Spec::parse(&about_image(args), Path::new("render.toml")).map_err(Failure::wrong)?
     } else {
-        experiments::load_sweep(&args.file)?
+        job::load_sweep(&args.file).map_err(Failure::wrong)?
     };
     if let Some((width, height)) = args.size {
         (spec.image.width, spec.image.height) = (width, height);

@@ -7,6 +7,7 @@ use serde_json::{Value as Json, json};
 
 use crate::evidence::{Evidence, Verdict};
 use crate::experiment::results::Results;
+use crate::job::{Done, Found};
 use crate::report;
 
 /// A finished experiment in a few lines.
@@ -24,8 +25,16 @@ pub(super) struct Summary {
 }
 
 impl Summary {
-    /// Of a sweep.
-    pub fn of_sweep(results: &Results, secs: f64, folder: &Path, files: Vec<PathBuf>) -> Self {
+    /// Of a finished job, with its results in `folder`.
+    pub fn of(done: Done, folder: &Path) -> Self {
+        let Done { found, secs, files } = done;
+        match found {
+            Found::Sweep(results) => Self::of_sweep(&results, secs, folder, files),
+            Found::Paper(evidence) => Self::of_evidence(&evidence, secs, folder, files),
+        }
+    }
+
+    fn of_sweep(results: &Results, secs: f64, folder: &Path, files: Vec<PathBuf>) -> Self {
         let scenes = results.scenes.len();
         let trials = results.scenes.iter().map(|scene| scene.trials.len()).sum();
         Self {
@@ -39,8 +48,7 @@ impl Summary {
         }
     }
 
-    /// Of a paper's evidence.
-    pub fn of_evidence(evidence: &Evidence, secs: f64, folder: &Path, files: Vec<PathBuf>) -> Self {
+    fn of_evidence(evidence: &Evidence, secs: f64, folder: &Path, files: Vec<PathBuf>) -> Self {
         let [reproduced, differ, not_applicable] = evidence.tally();
         let tally = format!(
             "{reproduced} reproduced, {differ} differ, {not_applicable} cannot be held against anything."

@@ -8,7 +8,7 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 
 use super::{Drawing, Evidence, Exhibit, FinishedPart, Panel, Paper, Row, Task};
-use crate::experiment::runner::{self, Outcome, RunError, RunEvent, Watcher};
+use crate::experiment::runner::{self, Extent, Outcome, RunError, RunEvent, Watcher};
 use crate::experiment::spec::{PaperSpec, RowSpec};
 use crate::experiment::store::Store;
 use crate::method::Progress;
@@ -66,18 +66,14 @@ fn gather_rows(
     watch: &Watcher,
 ) -> Result<Gathered, RunError> {
     let start = Instant::now();
-    announce(spec, paper, watch)?;
-    let mut parts = Vec::new();
+    let Extent { scenes: all, .. } = announce(spec, paper, watch)?;
+    let (mut parts, mut before) = (Vec::new(), 0);
     for part in &spec.parts {
-        let beside = Arc::clone(watch);
-        let told: Watcher = Arc::new(move |event| {
-            if !matches!(event, RunEvent::Started { .. }) {
-                beside(event);
-            }
-        });
+        let told = told_of_part(watch, &part.name, before, all);
         match runner::run(part, &folder.join(&part.name), halt, &told)? {
             Outcome::Finished(found) => {
                 let (results, costs) = *found;
+                before += results.scenes.len();
                 parts.push(FinishedPart { spec: part.clone(), results, costs });
             }
             Outcome::Halted => return Ok(Gathered::Halted),
@@ -85,7 +81,9 @@ fn gather_rows(
     }
     let store = Store::open(folder, &format!("{} {}", spec.paper, spec.seed))?;
     let (mut exhibits, mut row_secs) = (Vec::new(), Vec::new());
-    for (row, told) in paper.rows.iter().zip(&spec.rows) {
+    for (number, (row, told)) in (before + 1..).zip(paper.rows.iter().zip(&spec.rows)) {
+        let slug = row.name.to_owned();
+        watch(RunEvent::Scene { slug, part: None, number, of: all });
         let gathering = Gathering { spec, row, told, parts: &parts, store: &store, halt, watch };
         let Some((exhibit, secs)) = gathering.exhibit()? else { return Ok(Gathered::Halted) };
         exhibits.push(exhibit);
@@ -105,7 +103,21 @@ fn gather_rows(
     Ok(Gathered::Finished(Box::new(Findings { evidence, parts, row_secs, secs })))
 }
 
-fn announce(spec: &PaperSpec, paper: &Paper, watch: &Watcher) -> Result<(), RunError> {
+/// Tells `watch` what a part tells, as of one of several: `before` of `all` scenes were other parts'.
+fn told_of_part(watch: &Watcher, name: &str, before: usize, all: usize) -> Watcher {
+    let (watch, name) = (Arc::clone(watch), name.to_owned());
+    Arc::new(move |event| match event {
+        RunEvent::Started { .. } => {}
+        RunEvent::Scene { slug, number, .. } => {
+            let part = Some(name.clone());
+            watch(RunEvent::Scene { slug, part, number: before + number, of: all });
+        }
+        other => watch(other),
+    })
+}
+
+/// Tells how much there is to all of it.
+fn announce(spec: &PaperSpec, paper: &Paper, watch: &Watcher) -> Result<Extent, RunError> {
     let mut work: f64 = paper.rows.iter().map(|row| row.secs * UNITS).sum();
     let (mut scenes, mut trials) = (paper.rows.len(), 0);
     for part in &spec.parts {
@@ -115,7 +127,7 @@ fn announce(spec: &PaperSpec, paper: &Paper, watch: &Watcher) -> Result<(), RunE
         trials += extent.trials;
     }
     watch(RunEvent::Started { work, scenes, trials });
-    Ok(())
+    Ok(Extent { work, scenes, trials })
 }
 
 /// A row under way.
@@ -161,13 +173,15 @@ impl Gathering<'_> {
     /// The row's exhibit and the seconds it took; None if halted.
     fn exhibit(&self) -> Result<Option<(Exhibit, f64)>, RunError> {
         let work = self.row.secs * UNITS;
-        (self.watch)(RunEvent::Scene { slug: self.row.name.to_owned() });
         if let Some(kept) = self.take_up() {
             (self.watch)(RunEvent::Advanced { work, kept: true });
             return Ok(Some(kept));
         }
         let what = format!("{}: {}", self.row.name, self.row.title);
         (self.watch)(RunEvent::Working { what, work });
+        if self.halt.now() {
+            return Ok(None);
+        }
         let start = Instant::now();
         let task = Task {
             values: &self.told.values,

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::results::Score;
+
 /// What a run tells those who watch it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RunEvent {
@@ -16,8 +18,14 @@ pub enum RunEvent {
     },
     /// A scene's turn has come.
     Scene {
-        /// Its slug.
+        /// Its slug; of a paper's row, the row's name.
         slug: String,
+        /// The part it is of, where a paper's evidence is gathered; `None` of a row there, and of a single sweep.
+        part: Option<String>,
+        /// Its number among all scenes (and rows) of the run, from 1.
+        number: usize,
+        /// How many there are.
+        of: usize,
     },
     /// Something is being worked at, in a few words.
     Working {
@@ -43,7 +51,7 @@ pub enum RunEvent {
         /// The sentence.
         text: String,
     },
-    /// A trial has its scores.
+    /// A trial of the current scene has its scores.
     Scored {
         /// The scene's slug.
         scene: String,
@@ -51,9 +59,46 @@ pub enum RunEvent {
         method: String,
         /// Samples a pixel.
         spp: u32,
-        /// The root mean square error.
+        /// Its scores against the reference, in the order of the metrics.
+        scores: Vec<Score>,
+        /// CPU nanoseconds a pixel: wall-clock time × threads ÷ pixels.
+        ns_per_pixel: f64,
+        /// Whether an earlier run had made it.
+        kept: bool,
+    },
+    /// The current scene's reference has converged.
+    Converged {
+        /// The scene's slug.
+        scene: String,
+        /// Its own root mean square error, as estimated.
         rmse: f64,
     },
+    /// The distributions of normals at the current scene's probes are known.
+    Probed {
+        /// The scene's slug.
+        scene: String,
+        /// By method label, the mean distance `ndf_l1` over the probes.
+        distances: Vec<(String, f64)>,
+    },
+    /// The last frame of a sequence is done, and it is known how a trial flickers over its frames.
+    Flickered {
+        /// The sequence's slug.
+        sequence: String,
+        /// The method's label.
+        method: String,
+        /// Samples a pixel.
+        spp: u32,
+        /// The image's change over the reference's; `None` if the reference may be still.
+        flicker: Option<f64>,
+        /// The change of the image's error over the reference's change; `None` if the reference may be still.
+        error_flicker: Option<f64>,
+    },
+    /// The run waits before its next piece of work until it is let go on.
+    Paused,
+    /// It goes on.
+    Resumed,
+    /// All work is done; the report is being written.
+    Reporting,
 }
 
 /// Hears of a run's events, from any thread, as they come.

@@ -218,6 +218,19 @@ pub struct ProbedMethod {
     pub l1: f64,
 }
 
+/// By method, in the order they are first seen, the mean over probes of [`ProbedMethod::l1`].
+pub fn mean_distances<'a>(probes: impl Iterator<Item = &'a [ProbedMethod]>) -> Vec<(&'a str, f64)> {
+    let mut found: Vec<(&str, Vec<f64>)> = Vec::new();
+    for probed in probes.flatten() {
+        match found.iter_mut().find(|(method, _)| *method == probed.method) {
+            Some((_, distances)) => distances.push(probed.l1),
+            None => found.push((&probed.method, vec![probed.l1])),
+        }
+    }
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+    found.into_iter().map(|(method, distances)| (method, mean(&distances))).collect()
+}
+
 /// A lobe of a multiple surface, for drawing.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Peak {

@@ -2,6 +2,7 @@
 //! earlier run kept.
 
 mod records;
+mod tell;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -76,10 +77,11 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
     let mut run =
         Run { spec, plan: &plan, store: &store, stage: &mut stage, watch, work, left: 0.0 };
     run.announce();
-    for scene in &plan.scenes {
-        if !run.scene(scene)? {
+    for (number, scene) in (1..).zip(&plan.scenes) {
+        if !run.scene(number, scene)? {
             return Ok(Outcome::Halted);
         }
+        run.tell_flicker(scene);
     }
     let costs = Costs {
         total_secs: start.elapsed().as_secs_f64(),
@@ -151,8 +153,9 @@ impl Run<'_> {
     }
 
     /// Works at one scene until it is done (true) or the run is halted (false).
-    fn scene(&mut self, scene: &PlannedScene) -> Result<bool, RunError> {
-        (self.watch)(RunEvent::Scene { slug: scene.slug.clone() });
+    fn scene(&mut self, number: usize, scene: &PlannedScene) -> Result<bool, RunError> {
+        let (slug, of) = (scene.slug.clone(), self.plan.scenes.len());
+        (self.watch)(RunEvent::Scene { slug, part: None, number, of });
         self.left = self.work.scene(scene);
         self.take_up(scene);
         self.stage.world.insert_resource(Current(scene.entity));

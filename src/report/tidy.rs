@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::experiment::results::{
     MethodInfo, Peak, Probe, RefusalInfo, Results, SceneKey, SceneResult, TextureInfo,
+    mean_distances,
 };
 use crate::experiment::sequence::Sequence;
 use crate::metric::Step;
@@ -117,13 +118,9 @@ fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
 
 /// One row a method: the mean over the scene's probes.
 fn probe_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
-    let methods = scene.probes.iter().flat_map(|p| p.methods.iter().map(|m| m.method.as_str()));
-    super::contest::unique(methods).into_iter().map(|method| {
-        let of_method = scene.probes.iter().flat_map(|p| &p.methods).filter(|m| m.method == method);
-        let found: Vec<f64> = of_method.map(|m| m.l1).collect();
-        let value = found.iter().sum::<f64>() / found.len() as f64;
-        Row { key: &scene.key, method, spp: None, metric: "ndf_l1", value }
-    })
+    let distances = mean_distances(scene.probes.iter().map(|probe| probe.methods.as_slice()));
+    let row = |(method, value)| Row { key: &scene.key, method, spp: None, metric: "ndf_l1", value };
+    distances.into_iter().map(row)
 }
 
 #[derive(Serialize)]

@@ -24,6 +24,7 @@ impl Run<'_> {
             let converged = Converged { film, spp, rmse, mean_error };
             world.entity_mut(scene.entity).insert(ReferenceImage(Arc::new(converged)));
             self.advance(self.work.reference(), true);
+            (self.watch)(RunEvent::Converged { scene: slug.to_owned(), rmse });
         }
         for trial in &scene.trials {
             let name = keys::trial_name(self.spec, trial);
@@ -35,11 +36,12 @@ impl Run<'_> {
                 let world = &mut self.stage.world;
                 world.entity_mut(trial.entity).insert((exposure, scores));
                 self.advance(self.work.trial(trial), true);
+                self.tell_scores(scene, trial, record, true);
             }
         }
     }
 
-    /// Whether nothing of this scene is pending (its probes and refusals included).
+    /// Whether nothing of this scene is pending (its probes and refusals included); tells of the probes if so.
     pub(super) fn complete(&self, scene: &PlannedScene) -> bool {
         let world = &self.stage.world;
         let depends = keys::probes(self.spec, scene);
@@ -51,9 +53,14 @@ impl Run<'_> {
         };
         let done =
             |trial: &PlannedTrial| world.get::<Scores>(trial.entity).is_some() || refused(trial);
-        world.get::<ReferenceImage>(scene.entity).is_some()
-            && scene.trials.iter().all(done)
-            && self.store.find::<Vec<ProbeRecord>>(&scene.slug, keys::PROBES, &depends).is_some()
+        if world.get::<ReferenceImage>(scene.entity).is_none() || !scene.trials.iter().all(done) {
+            return false;
+        }
+        let probes: Option<Vec<ProbeRecord>> = self.store.find(&scene.slug, keys::PROBES, &depends);
+        if let Some(probes) = &probes {
+            self.tell_probes(scene, probes);
+        }
+        probes.is_some()
     }
 
     /// Keeps a piece of work that a tick has done.
@@ -116,6 +123,7 @@ impl Run<'_> {
             &record,
             &image.0.film,
         )?;
+        (self.watch)(RunEvent::Converged { scene: scene.slug.clone(), rmse });
         Ok(())
     }
 
@@ -130,14 +138,11 @@ impl Run<'_> {
             return Ok(());
         };
         let record = TrialRecord { scores: named_scores(scores), cpu_secs: exposure.cpu_secs };
-        let rmse = scores.0.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |s| s.1);
         let name = keys::trial_name(self.spec, trial);
         let depends = keys::trial(self.spec, scene, trial);
         self.store.keep_with_film(&scene.slug, &name, &depends, &record, &exposure.film)?;
         self.advance(self.work.trial(trial), false);
-        let method = self.spec.sweep.methods[trial.method].label.clone();
-        let (scene, spp) = (scene.slug.clone(), trial.spp);
-        (self.watch)(RunEvent::Scored { scene, method, spp, rmse });
+        self.tell_scores(scene, trial, record, false);
         Ok(())
     }
 
@@ -145,6 +150,7 @@ impl Run<'_> {
         let Some(probes) = self.stage.world.get::<Probes>(scene.entity) else { return Ok(()) };
         let records = probe_records(self.spec, scene, probes);
         self.store.keep(&scene.slug, keys::PROBES, &keys::probes(self.spec, scene), &records)?;
+        self.tell_probes(scene, &records);
         Ok(())
     }
 }
