@@ -1,10 +1,14 @@
 //! One image of an experiment, without keeping or scoring anything.
 
+use bevy_ecs::prelude::{Component, Entity, World};
+
 use super::author::author;
-use super::spec::{Scale, Spec, no_such};
+use super::spec::{LightSpec, Scale, Spec, SurfaceSpec, TextureSpec, no_such};
 use crate::method::{Method, Progress};
 use crate::render::{self, Film, Filtered, PixelSampler};
-use crate::scene::{Current, Failure, Halt, StagedScene, Stagehand, stage};
+use crate::scene::{
+    Current, Failure, Halt, LightSource, Map, SceneOf, StagedScene, Stagehand, SurfaceShape, stage,
+};
 
 /// Which image of an experiment.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +31,70 @@ pub struct NoImage(String);
 /// # Errors
 /// If there is no such texture, or it cannot be loaded.
 pub fn stage_one(spec: &Spec, wish: &Wish<'_>) -> Result<StagedScene, NoImage> {
+    Stock::default().stage_one(spec, wish)
+}
+
+/// What scenes are made of, kept from one to the next: those that differ in camera or scale alone need not load and
+/// build anew.
+#[derive(Debug, Default)]
+pub struct Stock {
+    texture: Option<((TextureSpec, bool), Map)>,
+    surface: Option<(SurfaceSpec, SurfaceShape)>,
+    light: Option<(LightSpec, LightSource)>,
+}
+
+impl Stock {
+    /// [`stage_one`], with what of the scene before is the same.
+    ///
+    /// # Errors
+    /// Those of [`stage_one`].
+    pub fn stage_one(&mut self, spec: &Spec, wish: &Wish<'_>) -> Result<StagedScene, NoImage> {
+        let one = one_of(spec, wish)?;
+        let mut hand = Stagehand::new(spec.seed, Halt::default());
+        let plan = author(&one, &mut hand);
+        let scene = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
+        hand.world.insert_resource(Current(scene.entity));
+        let of = *hand.world.get::<SceneOf>(scene.entity).expect("a scene names its parts");
+        let texture = (one.sweep.textures[0].clone(), one.needs_heights());
+        lend(&self.texture, &texture, &mut hand.world, of.texture);
+        lend(&self.surface, &one.surface, &mut hand.world, of.surface);
+        lend(&self.light, &one.light, &mut hand.world, of.light);
+        // With no method in the sweep, a tick loads texture and light; the rest is for others to do.
+        hand.tick();
+        if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
+            return Err(NoImage(error.to_string()));
+        }
+        let missing = || NoImage("the scene could not be put together".into());
+        let staged = stage(&mut hand.world, scene.entity).ok_or_else(missing)?;
+        let kept = &hand.world;
+        self.texture = kept.get::<Map>(of.texture).cloned().map(|map| (texture, map));
+        self.surface = kept.get::<SurfaceShape>(of.surface).cloned().map(|s| (one.surface, s));
+        self.light = kept.get::<LightSource>(of.light).cloned().map(|light| (one.light, light));
+        Ok(staged)
+    }
+
+    /// What is worth knowing about the texture of the last scene, a sentence each.
+    pub fn notes(&self) -> &[String] {
+        self.texture.as_ref().map_or(&[], |(_, map)| &map.notes)
+    }
+}
+
+/// Puts a component that is kept beside the entity it is to be made for, if it was made of the same.
+fn lend<K: PartialEq, C: Component + Clone>(
+    kept: &Option<(K, C)>,
+    key: &K,
+    world: &mut World,
+    entity: Entity,
+) {
+    if let Some((of, component)) = kept
+        && of == key
+    {
+        world.entity_mut(entity).insert(component.clone());
+    }
+}
+
+/// The spec with what `wish` chooses alone, and no method.
+fn one_of(spec: &Spec, wish: &Wish<'_>) -> Result<Spec, NoImage> {
     let mut one = spec.clone();
     one.sweep.methods.clear();
     if let Some(name) = wish.texture {
@@ -44,17 +112,7 @@ pub fn stage_one(spec: &Spec, wish: &Wish<'_>) -> Result<StagedScene, NoImage> {
         }
         one.sweep.scale = Scale::TexelsPerPixel(vec![texels]);
     }
-    let mut hand = Stagehand::new(spec.seed, Halt::default());
-    let plan = author(&one, &mut hand);
-    let scene = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
-    hand.world.insert_resource(Current(scene.entity));
-    // With no method in the sweep, a tick loads texture and light; the rest is for others to do.
-    hand.tick();
-    if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
-        return Err(NoImage(error.to_string()));
-    }
-    stage(&mut hand.world, scene.entity)
-        .ok_or_else(|| NoImage("the scene could not be put together".into()))
+    Ok(one)
 }
 
 /// Renders one image of an experiment through a method: the scene of [`stage_one`]. `progress` hears of

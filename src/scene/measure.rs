@@ -9,6 +9,7 @@ use super::{
 };
 use crate::geometry::HemisphereGrid;
 use crate::lobe::{MultipleSurface, Spread};
+use crate::method::Prefiltered;
 use crate::metric;
 use crate::render::true_distribution;
 use crate::texture::{Footprint, Lookup};
@@ -93,36 +94,79 @@ fn probe(
         return;
     }
     ready.sort_by_key(|(entity, ..)| *entity);
-    let found = plan.0.iter().filter_map(|&pixel| look_under(&staged, pixel, &ready)).collect();
+    let built: Vec<(Entity, Lookup, &dyn Prefiltered)> = ready
+        .iter()
+        .filter_map(|&(entity, lookup, prefilter)| {
+            Some((entity, lookup, prefilter?.0.as_ref().ok()?.as_ref()))
+        })
+        .collect();
+    let found = plan.0.iter().filter_map(|&pixel| probed(&staged, pixel, &built)).collect();
     commands.entity(current.0).insert(Probes(found));
     progress.write(Progress::Probed { scene: current.0 });
 }
 
 /// The probe of one pixel; None if it misses the surface.
-fn look_under(
+fn probed(
     staged: &StagedScene,
     pixel: [usize; 2],
-    prefilters: &[(Entity, Lookup, Option<&Prefilter>)],
+    prefilters: &[(Entity, Lookup, &dyn Prefiltered)],
 ) -> Option<Probe> {
+    let maps: Vec<_> = prefilters.iter().map(|&(_, lookup, map)| (lookup, map)).collect();
+    let Under { texels_across, truth, methods } = look_under(staged, pixel, PROBE_POINTS, &maps)?;
+    let of = |(found, &(prefilter, ..)): (Held, &(Entity, Lookup, &dyn Prefiltered))| {
+        let Held { surface, density, distance } = found;
+        ProbedMethod { prefilter, surface, density, distance }
+    };
+    let methods = methods.into_iter().zip(prefilters).map(of).collect();
+    Some(Probe { pixel, texels_across, truth, methods })
+}
+
+/// What lies under a pixel.
+#[derive(Clone, Debug)]
+pub struct Under {
+    /// Texels its footprint is across.
+    pub texels_across: f64,
+    /// The true distribution of normals, densities per steradian on [`HemisphereGrid::fournier`].
+    pub truth: Vec<f32>,
+    /// What each prefiltered map holds of it.
+    pub methods: Vec<Held>,
+}
+
+/// What a prefiltered map holds of a footprint.
+#[derive(Clone, Debug)]
+pub struct Held {
+    /// Its lobes.
+    pub surface: MultipleSurface,
+    /// Its distribution, densities per steradian on [`HemisphereGrid::fournier`].
+    pub density: Vec<f32>,
+    /// Total variation distance to the truth.
+    pub distance: f64,
+}
+
+/// Looks under a pixel: the true distribution from `points` samples, and what each of the maps, by its lookup, holds
+/// of it. None if the pixel misses the surface.
+pub fn look_under(
+    staged: &StagedScene,
+    pixel: [usize; 2],
+    points: u32,
+    maps: &[(Lookup, &dyn Prefiltered)],
+) -> Option<Under> {
     let grid = HemisphereGrid::fournier();
     let (view, map) = (&staged.view, &staged.map);
     let footprint = view.footprint(pixel[0] as f64 + 0.5, pixel[1] as f64 + 0.5)?;
-    let truth = true_distribution(view, map, &staged.material.base, pixel, PROBE_POINTS, &grid)?;
-    let methods = prefilters
-        .iter()
-        .filter_map(|&(entity, lookup, prefilter)| {
-            let at = Footprint { lookup, ..footprint };
-            let surface = prefilter?.0.as_ref().ok()?.lobes_at(&at);
-            let density: Vec<f32> = grid
-                .samples()
-                .iter()
-                .map(|s| [s.direction.x, s.direction.y, s.direction.z].map(|c| c as f32))
-                .map(|h| surface.lobes().iter().map(|lobe| lobe.density(h)).sum())
-                .collect();
-            let distance = metric::total_variation(&grid, &density, &truth);
-            Some(ProbedMethod { prefilter: entity, surface, density, distance })
-        })
-        .collect();
+    let truth = true_distribution(view, map, &staged.material.base, pixel, points, &grid)?;
+    let held = |&(lookup, prefiltered): &(Lookup, &dyn Prefiltered)| {
+        let surface = prefiltered.lobes_at(&Footprint { lookup, ..footprint });
+        let density: Vec<f32> = grid
+            .samples()
+            .iter()
+            .map(|s| [s.direction.x, s.direction.y, s.direction.z].map(|c| c as f32))
+            .map(|h| surface.lobes().iter().map(|lobe| lobe.density(h)).sum())
+            .collect();
+        let distance = metric::total_variation(&grid, &density, &truth);
+        Held { surface, density, distance }
+    };
     let texels_across = footprint.texels_across(map.width(), map.height());
-    Some(Probe { pixel, texels_across, truth, methods })
+    let methods = maps.iter().map(held).collect();
+    Some(Under { texels_across, truth, methods })
 }

@@ -20,7 +20,7 @@ mod texture;
 mod trial;
 
 pub use light::{Kindled, LightOrigin, MovedLight};
-pub use measure::{Probe, ProbedMethod, Probes, Scores};
+pub use measure::{Held, Probe, ProbedMethod, Probes, Scores, Under, look_under};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
 pub use reference::ReferenceImage;
 pub use shelf::Shelf;
