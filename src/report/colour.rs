@@ -38,7 +38,7 @@ pub const PALE: Ink = Ink::new([0xe4, 0xe4, 0xe4]);
 pub const SHADE: Ink = Ink::new([0xf1, 0xf1, 0xf1]);
 
 /// The colours of Okabe and Ito (2008), its yellow darkened to be legible on white.
-const OKABE_ITO: [[u8; 3]; 7] = [
+pub(crate) const OKABE_ITO: [[u8; 3]; 7] = [
     [0x00, 0x72, 0xb2],
     [0xd5, 0x5e, 0x00],
     [0x00, 0x9e, 0x73],

@@ -13,13 +13,13 @@
 //! [`write_evidence`] does the same for what was found about a paper.
 
 mod answer;
-mod axis;
+pub(crate) mod axis;
 mod bar;
 mod canvas;
 mod caveats;
 mod chart;
 mod choice;
-mod colour;
+pub(crate) mod colour;
 mod contest;
 mod costs;
 mod curves;
@@ -35,7 +35,7 @@ mod lobe_sheet;
 mod mark;
 mod motion;
 mod page;
-mod phrase;
+pub(crate) mod phrase;
 mod png;
 mod polar;
 mod ranking;

@@ -1,1 +1,0 @@
-//! A chart with logarithmic axes, drawn in characters.

@@ -1,0 +1,107 @@
+//! Axes with their ticks, labels and titles.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Span;
+
+use super::{Chart, cell, dim};
+use crate::report::axis::Axis;
+
+/// Draws both axes into `area`; what remains between them.
+pub(super) fn draw(chart: &Chart, [x, y]: [&Axis; 2], area: Rect, buffer: &mut Buffer) -> Rect {
+    let labels: Vec<(f64, String)> = labelled(y);
+    let widest =
+        labels.iter().map(|(_, label)| width(label)).max().unwrap_or(0).min(area.width / 3);
+    // Above: the title of what goes up. Below: the axis, its labels, its title.
+    let below = if area.height >= 9 { 3 } else { 2 };
+    let plot = Rect {
+        x: area.x + widest + 1,
+        y: area.y + 1,
+        width: area.width - widest - 1,
+        height: area.height - 1 - below,
+    };
+    heading(chart, area, buffer);
+    upright(y, &labels, plot, widest, buffer);
+    level(x, plot, area, buffer);
+    let title = chart.across.0;
+    if below == 3 {
+        let from = plot.x + (plot.width.saturating_sub(width(title))) / 2;
+        buffer.set_stringn(from, plot.bottom() + 2, title, plot.width.into(), dim());
+    }
+    plot
+}
+
+/// What goes up, and what is not shown.
+fn heading(chart: &Chart, area: Rect, buffer: &mut Buffer) {
+    buffer.set_stringn(area.x, area.y, chart.up.0, area.width.into(), dim());
+    let left_out = chart.left_out();
+    if left_out > 0 {
+        let points = if left_out == 1 { "point has" } else { "points have" };
+        let text = format!("{left_out} {points} no place here");
+        let from = area.right().saturating_sub(width(&text));
+        if from > area.x + width(chart.up.0) {
+            buffer.set_string(from, area.y, text, dim());
+        }
+    }
+}
+
+fn upright(y: &Axis, labels: &[(f64, String)], plot: Rect, widest: u16, buffer: &mut Buffer) {
+    let line = plot.x - 1;
+    for row in plot.top()..plot.bottom() {
+        buffer.set_string(line, row, "│", dim());
+    }
+    buffer.set_string(line, plot.bottom(), "└", dim());
+    let mut taken = Vec::new();
+    for (value, label) in labels {
+        let row = cell(plot, 0.0, y.place(*value).into()).1;
+        if taken.contains(&row) {
+            continue;
+        }
+        taken.push(row);
+        let from = line.saturating_sub(width(label).min(widest));
+        buffer.set_stringn(from, row, label, widest.into(), dim());
+        buffer.set_string(line, row, "┤", dim());
+    }
+}
+
+fn level(x: &Axis, plot: Rect, area: Rect, buffer: &mut Buffer) {
+    for column in plot.left()..plot.right() {
+        buffer.set_string(column, plot.bottom(), "─", dim());
+    }
+    let mut free = area.x;
+    for (value, label) in labelled(x) {
+        let column = cell(plot, x.place(value).into(), 0.0).0;
+        let long = width(&label);
+        // Below its tick, but within the area.
+        let from = column.saturating_sub(long / 2).min(area.right().saturating_sub(long));
+        if from < free.max(area.x) {
+            continue;
+        }
+        buffer.set_string(column, plot.bottom(), "┬", dim());
+        buffer.set_string(from, plot.bottom() + 1, &label, dim());
+        free = from + long + 1;
+    }
+}
+
+/// The ticks that have labels.
+fn labelled(axis: &Axis) -> Vec<(f64, String)> {
+    let ticks = axis.ticks.iter().filter(|tick| !tick.label.is_empty());
+    ticks.map(|tick| (tick.value, raised(&tick.label))).collect()
+}
+
+/// `10^{−3}` as `10⁻³`.
+fn raised(label: &str) -> String {
+    let Some((base, rest)) = label.split_once("^{") else { return label.to_owned() };
+    let raise = |c: char| match c {
+        '−' => '⁻',
+        c => c
+            .to_digit(10)
+            .map_or(c, |digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]),
+    };
+    let exponent: String = rest.trim_end_matches('}').chars().map(raise).collect();
+    format!("{base}{exponent}")
+}
+
+fn width(text: &str) -> u16 {
+    Span::raw(text).width().try_into().unwrap_or(u16::MAX)
+}

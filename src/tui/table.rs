@@ -1,1 +1,0 @@
-//! A table sorted by any column.
