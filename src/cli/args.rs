@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args as ArgGroup, Parser, Subcommand};
 
+use crate::tui::picture::{Colours, Pictures};
+
 /// wrinkle's arguments.
 #[derive(Debug, Parser)]
 #[command(
@@ -11,6 +13,8 @@ use clap::{Args as ArgGroup, Parser, Subcommand};
     version,
     about = "Measures filters for bump maps and normal maps against supersampled truth.",
     after_help = "Examples:
+  wrinkle                             the terminal runner: watch, explore, compare
+  wrinkle tui my_normals.png          what each filter does to your map, live
   wrinkle run                         the default experiment; its report goes to reports/highlight/
   wrinkle run quick                   a few seconds' work
   wrinkle render my_normals.png --method fournier --out look.png
@@ -29,6 +33,8 @@ pub struct Args {
 pub enum Command {
     /// Run experiments and write their reports.
     Run(RunArgs),
+    /// Open the terminal runner: watch runs, explore a scene, compare results.
+    Tui(TuiArgs),
     /// Show the experiments, methods, patterns, surfaces and environments there are.
     List(ListArgs),
     /// Render one image.
@@ -64,6 +70,35 @@ pub struct RunArgs {
     /// Print a summary as JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `tui`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle tui                         experiments, the lab, results; ? shows all keys
+  wrinkle tui quick                   with this experiment chosen
+  wrinkle tui my_normals.png          what each filter does to this map, live
+
+`wrinkle` alone does the same on a terminal.")]
+pub struct TuiArgs {
+    /// An experiment to choose, or an image file that holds a normal map, which opens in the lab.
+    #[arg(value_name = "EXPERIMENT|MAP")]
+    pub what: Option<String>,
+    /// Folder that reports are in and go to.
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// How pictures are drawn; the terminal is asked if this is not given.
+    #[arg(long, value_enum, default_value_t, value_name = "HOW")]
+    pub pictures: Pictures,
+    /// Which colours are used; NO_COLOR, COLORTERM and TERM tell if this is not given.
+    #[arg(long, value_enum, default_value_t, value_name = "WHICH", visible_alias = "color")]
+    pub colour: Colours,
+    /// Leave the mouse to the terminal.
+    #[arg(long)]
+    pub no_mouse: bool,
+    /// Threads to use; all cores if not given. Results are the same at any number.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
 }
 
 /// Arguments of `list`.

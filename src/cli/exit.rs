@@ -15,6 +15,8 @@ pub enum Exit {
     Wrong,
     /// 130: interrupted; the same command goes on where it stopped.
     Interrupted,
+    /// A signal's exit code, 128 and its number: what was finished is kept.
+    Signal(u8),
 }
 
 impl From<Exit> for ExitCode {
@@ -24,6 +26,7 @@ impl From<Exit> for ExitCode {
             Exit::Differs => 1,
             Exit::Wrong => 2,
             Exit::Interrupted => 130,
+            Exit::Signal(code) => code,
         })
     }
 }

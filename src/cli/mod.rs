@@ -13,6 +13,7 @@ mod render;
 mod run;
 mod summary;
 mod surface;
+mod tui;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -36,14 +37,16 @@ pub fn main() -> ExitCode {
 fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
     match args.command {
         Some(Command::Run(args)) => run::run(&args, out),
+        Some(Command::Tui(args)) => tui::tui(&args),
         Some(Command::List(args)) => list::list(&args, out),
         Some(Command::Render(args)) => render::render(&args, out),
         Some(Command::Lobes(args)) => lobes::lobes(&args, out),
         Some(Command::Compare(args)) => compare::compare(&args, out),
         Some(Command::Fit(args)) => fit::fit(&args, out),
         Some(Command::Bake(args)) => bake::bake(&args, out),
+        None if tui::is_possible() => obey(Args::parse_from(["wrinkle", "tui"]), out),
         None => {
-            // Nothing was asked: help, as a first answer.
+            // Nothing was asked, and nobody can watch: help, as a first answer.
             write!(out, "{}", Args::command().render_help().ansi())?;
             Ok(Exit::Done)
         }

@@ -74,11 +74,7 @@ fn of_map(args: &RenderArgs) -> Result<Film, Failure> {
 fn spec(args: &RenderArgs) -> Result<Spec, Failure> {
     let path = Path::new(&args.file);
     let is_toml = path.extension().is_some_and(|e| e == "toml");
-    let is_image = path.extension().is_some_and(|e| {
-        let e = e.to_string_lossy().to_lowercase();
-        ["png", "tif", "tiff", "webp", "exr", "hdr"].contains(&e.as_str())
-    });
-    let mut spec = if is_image || (path.is_file() && !is_toml) {
+    let mut spec = if job::is_image(path) || (path.is_file() && !is_toml) {
         if !path.is_file() {
             return Err(Failure::wrong(format!("there is no file {}", path.display())));
         }

@@ -65,6 +65,13 @@ pub fn locate(name: &str) -> Result<PathBuf, FindError> {
     })
 }
 
+/// Whether a path is that of an image file, by its ending.
+pub fn is_image(path: &Path) -> bool {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let known = ["png", "tif", "tiff", "webp", "exr", "hdr"];
+    ending.is_some_and(|ending| known.contains(&ending.as_str()))
+}
+
 /// Names of the experiments in the working folder, in alphabetical order.
 pub fn names() -> Vec<String> {
     names_in(Path::new(FOLDER))

@@ -125,11 +125,18 @@ fn picture(disc: &Disc, scale: f64) -> Picture {
 
 /// The grid cell under each pixel of a disc's picture.
 static CELLS: std::sync::LazyLock<Vec<Option<u16>>> = std::sync::LazyLock::new(|| {
-    let grid = HemisphereGrid::fournier();
     let at = |i: usize| (i as f64 + 0.5) / PIXELS as f64 * 2.0 - 1.0;
-    let cell = |i: usize| cell_at(&grid, at(i % PIXELS), -at(i / PIXELS));
+    let cell = |i: usize| cell_of_normal(at(i % PIXELS), -at(i / PIXELS));
     (0..PIXELS * PIXELS).map(cell).collect()
 });
+
+/// The index of the direction of [`HemisphereGrid::fournier`] whose cell holds the normal above (x, y); `None` off the
+/// disc.
+pub fn cell_of_normal(x: f64, y: f64) -> Option<u16> {
+    static GRID: std::sync::LazyLock<HemisphereGrid> =
+        std::sync::LazyLock::new(HemisphereGrid::fournier);
+    cell_at(&GRID, x, y)
+}
 
 /// The index of the sample whose cell holds the normal above (x, y); `None` off the disc.
 fn cell_at(grid: &HemisphereGrid, x: f64, y: f64) -> Option<u16> {

@@ -53,6 +53,8 @@ mod fixture;
 
 use std::path::{Path, PathBuf};
 
+pub use colour::{magnitude, signed};
+pub use disc::cell_of_normal;
 pub use evidence::write_evidence;
 pub use files::ReportError;
 pub use fit_plot::fit_plot;

@@ -224,7 +224,13 @@ pub const BINDINGS: &[Binding] = {
     &[
         bind(C::Question, &[c('y'), k(KeyCode::Enter)], A::Yes, "yes", "yes"),
         bind(C::Question, &[c('n'), k(KeyCode::Esc), c('q'), ctrl('c')], A::No, "no", "no"),
-        bind(C::Help, &[k(KeyCode::Esc), c('?'), c('q'), k(KeyCode::Enter)], A::Close, "close", "close"),
+        bind(
+            C::Help,
+            &[k(KeyCode::Esc), c('?'), c('q'), k(KeyCode::Enter)],
+            A::Close,
+            "close",
+            "close",
+        ),
         bind(C::Help, UP, A::Up, "scroll up", ""),
         bind(C::Help, DOWN, A::Down, "scroll down", "scroll"),
         bind(C::Help, &[k(KeyCode::PageUp), ctrl('b')], A::PageUp, "a page up", ""),
@@ -236,12 +242,36 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Experiments, &[k(KeyCode::PageDown), ctrl('f')], A::PageDown, "a page down", ""),
         bind(C::Experiments, &[k(KeyCode::Home), c('g')], A::First, "the first", ""),
         bind(C::Experiments, &[k(KeyCode::End), c('G')], A::Last, "the last", ""),
-        bind(C::Experiments, &[k(KeyCode::Enter), c('r')], A::Run, "run it, or go on where it stopped", "run"),
-        bind(C::Experiments, &[c('p')], A::Pause, "pause the run after the piece under way, and go on", "pause"),
-        bind(C::Experiments, &[c('x')], A::Cancel, "cancel the run; what is finished is kept", "cancel"),
+        bind(
+            C::Experiments,
+            &[k(KeyCode::Enter), c('r')],
+            A::Run,
+            "run it, or go on where it stopped",
+            "run",
+        ),
+        bind(
+            C::Experiments,
+            &[c('p')],
+            A::Pause,
+            "pause the run after the piece under way, and go on",
+            "pause",
+        ),
+        bind(
+            C::Experiments,
+            &[c('x')],
+            A::Cancel,
+            "cancel the run; what is finished is kept",
+            "cancel",
+        ),
         bind(C::Experiments, &[c('o')], A::OpenReport, "open the written report", "report"),
         bind(C::Experiments, &[c('v')], A::ToLabWith, "look at its first scene in the lab", "lab"),
-        bind(C::Experiments, &[c('c')], A::NextChart, "the next chart: RMSE, flicker, cost, normals", "chart"),
+        bind(
+            C::Experiments,
+            &[c('c')],
+            A::NextChart,
+            "the next chart: RMSE, flicker, cost, normals",
+            "chart",
+        ),
         bind(C::Experiments, &[c(']')], A::NextScene, "the next scene in chart and table", "scene"),
         bind(C::Experiments, &[c('[')], A::PreviousScene, "the scene before", ""),
         bind(C::Experiments, &[c('s')], A::SortNext, "sort the table by the next column", "sort"),
@@ -269,15 +299,39 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Lab, &[c('A')], A::LightRight, "turn the light to the right", ""),
         bind(C::Lab, &[c('w')], A::Wider, "a wider base lobe: a rougher surface", "width"),
         bind(C::Lab, &[c('W')], A::Narrower, "a narrower base lobe: a smoother surface", ""),
-        bind(C::Lab, &[c('p')], A::Lookup, "the next lookup: trilinear, anisotropic, EWA, exact", "lookup"),
-        bind(C::Lab, &[ctrl('s')], A::Save, "write the scene as an experiment, to be measured", "save"),
+        bind(
+            C::Lab,
+            &[c('p')],
+            A::Lookup,
+            "the next lookup: trilinear, anisotropic, EWA, exact",
+            "lookup",
+        ),
+        bind(
+            C::Lab,
+            &[ctrl('s')],
+            A::Save,
+            "write the scene as an experiment, to be measured",
+            "save",
+        ),
         // Pictures.
-        bind(C::Picture, DIGITS, A::Pick, "0: the reference; 1 to 9: that method, on the side shown", "pick"),
+        bind(
+            C::Picture,
+            DIGITS,
+            A::Pick,
+            "0: the reference; 1 to 9: that method, on the side shown",
+            "pick",
+        ),
         bind(C::Picture, &[c(' ')], A::Flip, "flip between the sides A and B", "flip"),
         bind(C::Picture, &[c('s')], A::Split, "split: A on the left, B on the right", "split"),
         bind(C::Picture, &[c(',')], A::SplitLeft, "move the split to the left", ""),
         bind(C::Picture, &[c('.')], A::SplitRight, "move the split to the right", ""),
-        bind(C::Picture, &[c('e')], A::Tone, "the image, its error in false colour, its signed error", "error"),
+        bind(
+            C::Picture,
+            &[c('e')],
+            A::Tone,
+            "the image, its error in false colour, its signed error",
+            "error",
+        ),
         bind(C::Picture, &[c('v')], A::Values, "pixels as numbers", "values"),
         bind(C::Picture, &[c('z'), c('+'), c('=')], A::ZoomIn, "zoom in at the cursor", "zoom"),
         bind(C::Picture, &[c('Z'), c('-')], A::ZoomOut, "zoom out", ""),
@@ -295,7 +349,13 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Reports, &[k(KeyCode::PageDown), ctrl('f')], A::PageDown, "a page down", ""),
         bind(C::Reports, &[k(KeyCode::Home), c('g')], A::First, "the first", ""),
         bind(C::Reports, &[k(KeyCode::End), c('G')], A::Last, "the last", ""),
-        bind(C::Reports, &[k(KeyCode::Enter), k(KeyCode::Right), c('l')], A::Choose, "look into it", "look"),
+        bind(
+            C::Reports,
+            &[k(KeyCode::Enter), k(KeyCode::Right), c('l')],
+            A::Choose,
+            "look into it",
+            "look",
+        ),
         bind(C::Reports, &[k(KeyCode::Left), c('h')], A::Back, "back", ""),
         bind(C::Results, &[k(KeyCode::Esc), k(KeyCode::Backspace)], A::Back, "back", "back"),
         bind(C::Results, &[c(']')], A::NextScene, "the next scene or row", "scene"),
@@ -305,9 +365,27 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Everywhere, &[k(KeyCode::F(1)), c('E')], A::ToExperiments, "experiments", ""),
         bind(C::Everywhere, &[k(KeyCode::F(2)), c('L')], A::ToLab, "lab", ""),
         bind(C::Everywhere, &[k(KeyCode::F(3)), c('R')], A::ToResults, "results", ""),
-        bind(C::Everywhere, &[k(KeyCode::Tab)], A::NextFocus, "the focus to the next part", "focus"),
-        bind(C::Everywhere, &[k(KeyCode::BackTab)], A::PreviousFocus, "the focus to the part before", ""),
-        bind(C::Everywhere, &[c('M')], A::Mouse, "let go of the mouse, so that the terminal selects text, and take it again", ""),
+        bind(
+            C::Everywhere,
+            &[k(KeyCode::Tab)],
+            A::NextFocus,
+            "the focus to the next part",
+            "focus",
+        ),
+        bind(
+            C::Everywhere,
+            &[k(KeyCode::BackTab)],
+            A::PreviousFocus,
+            "the focus to the part before",
+            "",
+        ),
+        bind(
+            C::Everywhere,
+            &[c('M')],
+            A::Mouse,
+            "let go of the mouse, so that the terminal selects text, and take it again",
+            "",
+        ),
         bind(C::Everywhere, &[ctrl('l')], A::Redraw, "draw everything anew", ""),
         bind(C::Everywhere, &[ctrl('z')], A::Suspend, "suspend; `fg` in the shell comes back", ""),
         bind(C::Everywhere, &[c('?')], A::Help, "all keys", "keys"),
@@ -384,7 +462,10 @@ mod tests {
                 for binding in BINDINGS.iter().filter(|b| b.context == *context) {
                     for key in binding.keys {
                         let hidden = find(&contexts[..i], *key);
-                        assert!(hidden.is_none(), "{contexts:?}: {key} of {context:?} is {hidden:?}");
+                        assert!(
+                            hidden.is_none(),
+                            "{contexts:?}: {key} of {context:?} is {hidden:?}"
+                        );
                     }
                 }
             }
@@ -406,7 +487,10 @@ mod tests {
     #[test]
     fn arrows_and_vi_keys_are_one() {
         for pair in [UP, DOWN, LEFT, RIGHT] {
-            assert!(matches!(pair[0].code, KeyCode::Up | KeyCode::Down | KeyCode::Left | KeyCode::Right));
+            assert!(matches!(
+                pair[0].code,
+                KeyCode::Up | KeyCode::Down | KeyCode::Left | KeyCode::Right
+            ));
             assert!(matches!(pair[1].code, KeyCode::Char('h' | 'j' | 'k' | 'l')));
         }
     }

@@ -121,7 +121,8 @@ impl Model {
 
     /// All contexts that can hold together.
     pub fn all_contexts() -> Vec<Vec<Context>> {
-        let mut all = vec![vec![Context::Question], vec![Context::Help], vec![Context::Experiments]];
+        let mut all =
+            vec![vec![Context::Question], vec![Context::Help], vec![Context::Experiments]];
         all.extend(lab::Focus::ALL.map(|focus| focus.contexts().to_vec()));
         all.extend(results::Focus::ALL.map(|focus| focus.contexts().to_vec()));
         all[2..].iter_mut().for_each(|contexts| contexts.push(Context::Everywhere));
@@ -148,8 +149,14 @@ impl Model {
 /// A text without control characters, which a terminal would obey: they, and line ends, become spaces.
 pub fn plain(text: &str) -> String {
     let words: Vec<&str> = text.split(|c: char| c.is_control() || c == '\u{feff}').collect();
-    let kept: Vec<&str> = words.into_iter().map(str::trim).filter(|word| !word.is_empty()).collect();
+    let kept: Vec<&str> =
+        words.into_iter().map(str::trim).filter(|word| !word.is_empty()).collect();
     kept.join(" ")
+}
+
+/// [`plain`], spaces kept.
+pub fn plain_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 #[cfg(test)]

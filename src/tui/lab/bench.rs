@@ -6,11 +6,9 @@ use std::time::Instant;
 
 use super::told::{Finding, Score, Wanted};
 use crate::experiment::preview::{Stock, Wish};
-use crate::method::{Method, Prefiltered, PrefilterError, Progress};
+use crate::method::{Method, PrefilterError, Prefiltered, Progress};
 use crate::metric::{self, equivalent_samples};
-use crate::render::{
-    Converged, Film, Filtered, PixelSampler, average, reference_replicate, trial,
-};
+use crate::render::{Converged, Film, Filtered, PixelSampler, average, reference_replicate, trial};
 use crate::scene::StagedScene;
 
 /// Samples a pixel of one replicate of the reference.
@@ -104,14 +102,6 @@ impl Bench {
         (self.replicates.len() < last).then_some(Step::Replicate)
     }
 
-    /// Whether a step is for what is looked at now.
-    pub fn is_urgent(&self, step: Step) -> bool {
-        match step {
-            Step::Image(method) => self.wanted.first.contains(&method),
-            _ => false,
-        }
-    }
-
     /// Does a step, and tells what it gave. Stops early if `cancelled` says so, and then has done nothing.
     pub fn work(
         &mut self,
@@ -127,7 +117,11 @@ impl Bench {
         }
     }
 
-    fn replicate(&mut self, cancelled: &(dyn Fn() -> bool + Sync), tell: &(dyn Fn(Finding) + Sync)) {
+    fn replicate(
+        &mut self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        tell: &(dyn Fn(Finding) + Sync),
+    ) {
         let (staged, spec) = (&self.staged, &self.wanted.spec);
         let truth = (spec.reference.truth, &staged.map, &staged.material.base);
         let sampler = PixelSampler::new(REPLICATE);
@@ -159,7 +153,9 @@ impl Bench {
     ) {
         let Some(map) = self.map(method, shelf, cancelled, tell) else { return };
         let start = Instant::now();
-        let Some(film) = self.render(method, map.as_ref(), self.wanted.spp, cancelled) else { return };
+        let Some(film) = self.render(method, map.as_ref(), self.wanted.spp, cancelled) else {
+            return;
+        };
         let secs = start.elapsed().as_secs_f64() * rayon::current_num_threads() as f64;
         let pixels = film.pixels().len() as f64;
         let film = Arc::new(film);
@@ -242,7 +238,8 @@ impl Bench {
         cancelled: &(dyn Fn() -> bool + Sync),
         tell: &(dyn Fn(Finding) + Sync),
     ) {
-        let unfiltered = self.brute_force().and_then(|m| Some((m, Arc::clone(self.maps[m].as_ref()?))));
+        let unfiltered =
+            self.brute_force().and_then(|m| Some((m, Arc::clone(self.maps[m].as_ref()?))));
         let film = match unfiltered {
             Some((method, map)) => match self.render(method, map.as_ref(), spp, cancelled) {
                 Some(film) => film,
@@ -270,9 +267,10 @@ impl Bench {
         let errors: Vec<Option<f64>> =
             self.films.iter().map(|film| film.as_ref().and_then(|film| rmse(film))).collect();
         let first = self.brute_force().and_then(|m| errors[m]).map(|e| (self.wanted.spp, e));
-        let drawn = self.curve.iter().filter(|(spp, film)| {
-            *spp > self.wanted.spp && !film.pixels().is_empty()
-        });
+        let drawn = self
+            .curve
+            .iter()
+            .filter(|(spp, film)| *spp > self.wanted.spp && !film.pixels().is_empty());
         let rest = drawn.filter_map(|(spp, film)| Some((*spp, rmse(film)?)));
         let curve: Vec<(u32, f64)> = first.into_iter().chain(rest).collect();
         let score = |error: Option<f64>| {
@@ -346,7 +344,6 @@ mod tests {
         let mut shelf = Shelf::new();
         work(&mut bench, &mut shelf, 2);
         assert_eq!(bench.next(), Some(Step::Image(4)));
-        assert!(bench.is_urgent(Step::Image(4)) && !bench.is_urgent(Step::Replicate));
         bench.wanted.first = vec![7, 0];
         assert_eq!(bench.next(), Some(Step::Image(7)));
     }

@@ -12,7 +12,7 @@ mod worker;
 pub use setting::Setting;
 pub use setup::Setup;
 pub use told::{Finding, Held, Look, Order, Score, Told, Under, Wanted};
-pub use update::{act, click, open, take};
+pub use update::{act, click, enter, open, take};
 pub use view::{Layout, draw};
 pub use worker::{Tell, Worker};
 

@@ -162,7 +162,13 @@ impl Setting {
             }
             Self::LightAzimuth => {
                 let to = stepped(self.angle(spec), 10.0, steps);
-                let to = if to > 180.0 { to - 360.0 } else if to < -180.0 { to + 360.0 } else { to };
+                let to = if to > 180.0 {
+                    to - 360.0
+                } else if to < -180.0 {
+                    to + 360.0
+                } else {
+                    to
+                };
                 let key = if spec.light.is_environment() { "rotation" } else { "azimuth" };
                 setup.set("light", key, to);
             }

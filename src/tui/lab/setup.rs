@@ -55,8 +55,29 @@ impl Setup {
     /// # Errors
     /// A sentence, if it is no spec of a sweep.
     pub fn of_experiment(name: &str, text: &str, path: &Path) -> Result<Self, String> {
-        let spec = Spec::parse(text, path).map_err(|errors| first(&errors))?;
+        Self::of_part(name, text, None, path)
+    }
+
+    /// The same of a paper's part, whose text is that of the whole.
+    ///
+    /// # Errors
+    /// A sentence, if there is no such part, or it is no sweep.
+    pub fn of_part(
+        name: &str,
+        text: &str,
+        part: Option<&str>,
+        path: &Path,
+    ) -> Result<Self, String> {
         let mut table: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+        if let Some(part) = part {
+            let own = table.get("part").and_then(|parts| parts.get(part)?.as_table()).cloned();
+            let own = own.ok_or_else(|| format!("{name}: there is no part `{part}`"))?;
+            ["paper", "title", "question", "part", "row"]
+                .iter()
+                .for_each(|k| drop(table.remove(*k)));
+            lay_over(&mut table, own);
+        }
+        let spec = Spec::parse(&table.to_string(), path).map_err(|errors| first(&errors))?;
         table.remove("motion");
         let mut setup = Self {
             name: name.to_owned(),
@@ -76,12 +97,14 @@ impl Setup {
     /// # Errors
     /// A sentence, if there is no such file.
     pub fn of_map(file: &Path) -> Result<Self, String> {
-        let path = std::path::absolute(file).map_err(|error| format!("{}: {error}", file.display()))?;
+        let path =
+            std::path::absolute(file).map_err(|error| format!("{}: {error}", file.display()))?;
         let Some(written) = path.to_str() else {
             return Err(format!("the path of {} is not UTF-8: rename it", file.display()));
         };
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
+        let safe =
+            |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
         let texture: String = stem.chars().map(safe).collect();
         let texture = if texture.is_empty() { "map".to_owned() } else { texture };
         let mut map = Table::new();
@@ -187,6 +210,16 @@ impl Setup {
     }
 }
 
+/// Lays what a part says over what is common to all, table by table.
+fn lay_over(common: &mut Table, own: Table) {
+    for (key, value) in own {
+        match (common.get_mut(&key), value) {
+            (Some(Value::Table(below)), Value::Table(above)) => lay_over(below, above),
+            (_, value) => drop(common.insert(key, value)),
+        }
+    }
+}
+
 fn list<V: Into<Value>>(values: impl IntoIterator<Item = V>) -> Value {
     Value::Array(values.into_iter().map(Into::into).collect())
 }
@@ -232,6 +265,7 @@ fn first(errors: &SpecErrors) -> String {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::experiment::spec::Experiment;
 
     const SWEEP: &str = r#"
         title = "Two of everything"
@@ -263,7 +297,10 @@ pub(super) mod tests {
         let names: Vec<&str> = spec.sweep.textures.iter().map(|t| t.name.as_str()).collect();
         assert_eq!(names, ["twill"]);
         assert_eq!(spec.sweep.lobes.len(), 1);
-        assert_eq!((spec.sweep.lobes[0].name(), spec.sweep.lobes[0].parameter()), ("beckmann", 0.3));
+        assert_eq!(
+            (spec.sweep.lobes[0].name(), spec.sweep.lobes[0].parameter()),
+            ("beckmann", 0.3)
+        );
         assert_eq!(spec.sweep.elevations, [20.0]);
         assert_eq!(spec.sweep.scale, Scale::TexelsPerPixel(vec![8.0]));
         assert_eq!(spec.motion, None);
@@ -310,20 +347,24 @@ pub(super) mod tests {
         assert!(error.contains("there is no file") && error.contains("gone.png"), "{error}");
     }
 
-    /// Every experiment of the project's opens.
+    /// Every experiment of the project's opens, every part of a paper's too.
     #[test]
     fn every_sweep_can_be_opened() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments");
-        let mut opened = 0;
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             let text = std::fs::read_to_string(&path).unwrap();
-            if Spec::parse(&text, &path).is_ok() {
-                let setup = Setup::of_experiment("x", &text, &path);
-                assert!(setup.is_ok(), "{}: {setup:?}", path.display());
-                opened += 1;
+            let parts: Vec<Option<String>> = match crate::job::load(path.to_str().unwrap()).unwrap()
+            {
+                Experiment::Sweep(_) => vec![None],
+                Experiment::Paper(paper) => {
+                    paper.parts.iter().map(|part| Some(part.name.clone())).collect()
+                }
+            };
+            for part in parts {
+                let setup = Setup::of_part("x", &text, part.as_deref(), &path);
+                assert!(setup.is_ok(), "{} {part:?}: {setup:?}", path.display());
             }
         }
-        assert!(opened >= 5, "{opened}");
     }
 }

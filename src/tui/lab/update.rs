@@ -10,6 +10,8 @@ use crate::tui::message::Effect;
 use crate::tui::model::Model;
 use crate::tui::viewer::{self, Shot};
 
+/// The experiment that an empty lab opens.
+const FIRST: &str = "highlight";
 /// Steps of the keys that change much.
 const MUCH: i32 = 4;
 
@@ -17,6 +19,16 @@ const MUCH: i32 = 4;
 pub fn open(model: &mut Model, name: &str) -> Vec<Effect> {
     model.lab.opening = Some(name.to_owned());
     vec![Effect::Lab(Order::Open(name.to_owned()))]
+}
+
+/// The lab is shown: goes on rendering, or opens what to begin with.
+pub fn enter(model: &mut Model) -> Vec<Effect> {
+    match &model.lab.setup {
+        None if model.lab.opening.is_none() => open(model, FIRST),
+        None => Vec::new(),
+        Some(_) if model.lab.done => Vec::new(),
+        Some(_) => show(&model.lab),
+    }
 }
 
 /// Does what a key asks.
@@ -126,7 +138,8 @@ fn begin(model: &mut Model, spec: crate::experiment::spec::Spec) -> Vec<Effect> 
     };
     let size = [spec.image.width, spec.image.height];
     if !same || lab.viewer.size().is_some_and(|old| old != size) {
-        let shot = |label: &str| Shot { label: label.to_owned(), remark: String::new(), film: None };
+        let shot =
+            |label: &str| Shot { label: label.to_owned(), remark: String::new(), film: None };
         let mut shots = vec![shot("reference")];
         shots.extend(labels.iter().map(|label| shot(label)));
         lab.viewer.replace(shots);

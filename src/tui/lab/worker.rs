@@ -164,7 +164,8 @@ fn look(desk: &Desk, asked: &mpsc::Receiver<Look>, tell: &Tell) {
         while let Ok(later) = asked.try_recv() {
             wish = later;
         }
-        let Some(stand) = lock(&desk.stand).clone().filter(|stand| stand.scene == wish.scene) else {
+        let Some(stand) = lock(&desk.stand).clone().filter(|stand| stand.scene == wish.scene)
+        else {
             continue;
         };
         let under = match &pool {
@@ -213,25 +214,26 @@ fn open(name: &str) -> Result<Setup, String> {
     if job::is_image(path) {
         return Setup::of_map(path);
     }
-    let (whole, part) = job::split(name);
-    match job::load(whole).map_err(|error| error.to_string())? {
-        Experiment::Sweep(spec) => {
-            let path = job::locate(whole).map_err(|error| error.to_string())?;
-            Setup::of_experiment(name, &spec.text, &path)
+    let failed = |error: job::FindError| error.to_string();
+    let spec = match job::load(name) {
+        Ok(Experiment::Sweep(spec)) => *spec,
+        Ok(Experiment::Paper(paper)) => {
+            let first = paper.parts.first().map(|part| part.name.clone());
+            let part = first.ok_or_else(|| format!("experiment `{name}` has no scenes"))?;
+            return open(&format!("{name}/{part}"));
         }
-        Experiment::Paper(paper) => {
-            let path = job::locate(whole).map_err(|error| error.to_string())?;
-            let wanted = |spec: &&crate::experiment::spec::Spec| part.is_none_or(|p| p == spec.name);
-            let spec = paper.parts.iter().find(wanted);
-            let spec = spec.ok_or_else(|| format!("experiment `{whole}` has no such part"))?;
-            Setup::of_experiment(&format!("{whole}/{}", spec.name), &spec.text, &path)
-        }
-    }
+        Err(error) => job::load_sweep(name).map_err(|_| failed(error))?,
+    };
+    let whole = name.strip_suffix(&format!("/{}", spec.name)).unwrap_or(name);
+    let path = job::locate(name).or_else(|_| job::locate(whole)).map_err(failed)?;
+    let part = (whole != name).then_some(spec.name.as_str());
+    Setup::of_part(name, &spec.text, part, &path)
 }
 
 /// Writes an experiment under the first free name.
 fn save(text: &str, folder: &Path) -> Result<PathBuf, String> {
-    let cannot = |path: &Path, error: std::io::Error| format!("cannot write {}: {error}", path.display());
+    let cannot =
+        |path: &Path, error: std::io::Error| format!("cannot write {}: {error}", path.display());
     std::fs::create_dir_all(folder).map_err(|error| cannot(folder, error))?;
     let free = (1..).map(|n| folder.join(format!("lab-{n}.toml"))).find(|path| !path.exists());
     let path = free.unwrap_or_else(|| folder.join("lab.toml"));

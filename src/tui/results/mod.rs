@@ -1,7 +1,10 @@
 //! The pane of results: reports of earlier runs, their images and verdicts.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use ratatui::Frame;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use super::keys::{Context, Pressed};
 use super::message::Effect;
@@ -52,10 +55,33 @@ impl Results {
         Vec::new()
     }
 
+    /// The pane is shown.
+    pub fn enter(_model: &mut Model) -> Vec<Effect> {
+        Vec::new()
+    }
+
+    /// Does what a click asks.
+    pub fn click(_model: &mut Model, _at: Position) -> Vec<Effect> {
+        Vec::new()
+    }
+
     /// Takes in what was told.
     pub fn take(_model: &mut Model, told: Told) -> Vec<Effect> {
         match told {}
     }
+}
+
+/// The threads of the results.
+pub struct Worker {}
+
+impl Worker {
+    /// Starts them; reports are in `reports`.
+    pub fn start(_tell: Arc<dyn Fn(Told) + Send + Sync>, _reports: PathBuf) -> Self {
+        Self {}
+    }
+
+    /// Passes an order on; never waits.
+    pub fn order(&self, _order: Order) {}
 }
 
 /// Draws the pane.

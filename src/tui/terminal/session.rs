@@ -12,7 +12,8 @@ use crossterm::terminal::{
     BeginSynchronizedUpdate, EndSynchronizedUpdate, disable_raw_mode, enable_raw_mode,
 };
 use ratatui::backend::CrosstermBackend;
-use ratatui::{Frame, Terminal};
+use ratatui::layout::Rect;
+use ratatui::{Frame, Terminal, TerminalOptions, Viewport};
 
 use super::input::Input;
 use super::{sequences, signals};
@@ -83,13 +84,16 @@ impl Session {
         Ok(session)
     }
 
-    /// What frames are drawn on.
+    /// What frames are drawn on. It has no size until it is given one ([`Terminal::resize`]): what terminals tell is to
+    /// be looked at first.
     ///
     /// # Errors
-    /// If the terminal does not tell its size.
+    /// If the terminal is gone.
     pub fn terminal(&self) -> io::Result<Tty> {
         // A frame of half blocks in all colours takes up to a megabyte.
-        Terminal::new(CrosstermBackend::new(BufWriter::with_capacity(1 << 16, io::stdout())))
+        let backend = CrosstermBackend::new(BufWriter::with_capacity(1 << 16, io::stdout()));
+        let viewport = Viewport::Fixed(Rect::ZERO);
+        Terminal::with_options(backend, TerminalOptions { viewport })
     }
 
     /// Takes the terminal again, whatever was done to it: after the program was stopped and continued. Draw everything

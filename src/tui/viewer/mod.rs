@@ -168,7 +168,12 @@ impl Viewer {
             (Some(at), _) => (of(Side::A), Some((of(Side::B), at))),
             (None, on) => (of(on), None),
         };
+        let names = match (self.split, self.on) {
+            (Some(_), _) => self.sides.map(Some),
+            (None, on) => [Some(self.side(on)), None],
+        };
         Sight {
+            names,
             left,
             right,
             reference: self.reference().cloned(),
@@ -183,11 +188,14 @@ impl Viewer {
     pub fn caption(&self) -> String {
         let name = |side: Side| {
             let shot = self.shot(side);
-            shot.map_or_else(|| "nothing".to_owned(), |shot| {
-                let waits = if shot.film.is_none() { " …" } else { "" };
-                let gap = if shot.remark.is_empty() { "" } else { " " };
-                format!("{}{gap}{}{waits}", shot.label, shot.remark)
-            })
+            shot.map_or_else(
+                || "nothing".to_owned(),
+                |shot| {
+                    let waits = if shot.film.is_none() { " …" } else { "" };
+                    let gap = if shot.remark.is_empty() { "" } else { " " };
+                    format!("{}{gap}{}{waits}", shot.label, shot.remark)
+                },
+            )
         };
         let what = match (self.split, self.on) {
             (Some(_), on) => {
@@ -203,7 +211,8 @@ impl Viewer {
             Tone::Error => "  |error|",
             Tone::Difference => "  signed error",
         };
-        let stops = if self.stops == 0.0 { String::new() } else { format!("  {:+} stops", self.stops) };
+        let stops =
+            if self.stops == 0.0 { String::new() } else { format!("  {:+} stops", self.stops) };
         format!("{what}{tone}{stops}")
     }
 
@@ -245,7 +254,11 @@ pub(super) mod tests {
             Some(Arc::new(Film::new(4, 2, pixels)))
         };
         let shot = |label: &str, film| Shot { label: label.into(), remark: String::new(), film };
-        Viewer::of(vec![shot("reference", film(1.0)), shot("bright", film(2.0)), shot("slow", None)])
+        Viewer::of(vec![
+            shot("reference", film(1.0)),
+            shot("bright", film(2.0)),
+            shot("slow", None),
+        ])
     }
 
     #[test]

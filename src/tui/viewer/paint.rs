@@ -7,7 +7,7 @@ use super::{Tone, Zoom};
 use crate::experiment::results::Picture;
 use crate::render::{Film, heat, srgb};
 use crate::report::signed;
-use crate::tui::picture::Paint;
+use crate::tui::picture::{Paint, SURROUND};
 
 /// Images as they are looked at: everything a picture of them follows from.
 #[derive(Clone, Debug)]
@@ -16,6 +16,8 @@ pub struct Sight {
     pub left: Option<Arc<Film>>,
     /// The image right of the split, and where that is, as a part of the width.
     pub right: Option<(Option<Arc<Film>>, f64)>,
+    /// The numbers of the images on the sides that are shown.
+    pub names: [Option<usize>; 2],
     /// What errors are measured from.
     pub reference: Option<Arc<Film>>,
     /// What is shown.
@@ -28,8 +30,6 @@ pub struct Sight {
     pub white: f64,
 }
 
-/// What surrounds an image.
-const SURROUND: [u8; 3] = [24, 24, 24];
 /// The split.
 const LINE: [u8; 3] = [255, 200, 0];
 /// The cursor's corners.
@@ -46,7 +46,13 @@ pub struct Placing {
 
 impl Placing {
     /// Of an image of `image` pixels in a picture of `size` pixels, each `aspect` times as wide as high.
-    pub fn of(image: [usize; 2], size: [usize; 2], aspect: f64, zoom: Zoom, cursor: [usize; 2]) -> Self {
+    pub fn of(
+        image: [usize; 2],
+        size: [usize; 2],
+        aspect: f64,
+        zoom: Zoom,
+        cursor: [usize; 2],
+    ) -> Self {
         let [image_w, image_h] = image.map(|side| side.max(1) as f64);
         // In units of a picture's pixel height.
         let [room_w, room_h] = [size[0].max(1) as f64 * aspect, size[1].max(1) as f64];
@@ -86,6 +92,14 @@ impl Placing {
 }
 
 impl Sight {
+    /// Tells pictures apart but for their films: of the same, a former one may stand in while the next is drawn. Which
+    /// images are shown belongs to it: one is no former version of another.
+    pub fn look_stamp(&self) -> u64 {
+        let mut hasher = std::hash::DefaultHasher::new();
+        (self.names, self.tone, self.cursor).hash(&mut hasher);
+        hasher.finish()
+    }
+
     /// Tells pictures apart: of the same stamp, they are the same.
     pub fn stamp(&self) -> u64 {
         let mut hasher = std::hash::DefaultHasher::new();
@@ -215,8 +229,8 @@ fn mean_error(film: &Film, truth: &Film, part: [[f64; 2]; 2]) -> Option<[f64; 2]
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::viewer;
     use super::super::Side;
+    use super::super::tests::viewer;
     use super::*;
 
     #[test]

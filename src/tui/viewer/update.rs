@@ -170,7 +170,8 @@ mod tests {
     #[test]
     fn an_empty_viewer_takes_every_key() {
         let mut viewer = Viewer::default();
-        for action in [Action::ZoomIn, Action::CursorUp, Action::Pick, Action::Whole, Action::Tone] {
+        for action in [Action::ZoomIn, Action::CursorUp, Action::Pick, Action::Whole, Action::Tone]
+        {
             press(&mut viewer, action, 0);
         }
         viewer.point(3, 3, LOOK);

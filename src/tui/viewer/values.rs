@@ -13,7 +13,9 @@ const WIDTH: u16 = 8;
 
 /// Draws the pixels about the cursor as numbers, each on its colour, the cursor's in brackets.
 pub fn values(viewer: &Viewer, area: Rect, buffer: &mut Buffer) {
-    let (Some([width, height]), Some(film)) = (viewer.size(), viewer.film(viewer.on)) else { return };
+    let (Some([width, height]), Some(film)) = (viewer.size(), viewer.film(viewer.on)) else {
+        return;
+    };
     let [columns, rows] = [(area.width / WIDTH).max(1), area.height.max(1)].map(usize::from);
     let start = |cursor: usize, shown: usize, side: usize| {
         cursor.saturating_sub(shown / 2).min(side.saturating_sub(shown))
