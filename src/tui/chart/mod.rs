@@ -12,6 +12,7 @@
 //! ```
 
 mod axes;
+mod bars;
 mod key;
 mod legend;
 
@@ -27,6 +28,7 @@ use ratatui::widgets::canvas::{Canvas, Context, Line};
 
 use crate::report::axis::Axis;
 
+pub use bars::{Bar, Bars};
 pub use key::{Key, keys};
 
 /// What an axis is like.
