@@ -184,6 +184,8 @@ pub enum Action {
     // Results.
     Back,
     Samples,
+    NextImage,
+    PreviousImage,
 }
 
 /// A row of the table.
@@ -361,6 +363,8 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Results, &[k(KeyCode::Esc), k(KeyCode::Backspace)], A::Back, "back", "back"),
         bind(C::Results, &[c(']')], A::NextScene, "the next scene or row", "scene"),
         bind(C::Results, &[c('[')], A::PreviousScene, "the scene or row before", ""),
+        bind(C::Results, &[c('m')], A::NextImage, "the next image, on the side shown", "image"),
+        bind(C::Results, &[c('b')], A::PreviousImage, "the image before", ""),
         bind(
             C::Results,
             &[c('n')],

@@ -233,6 +233,10 @@ fn digits_flip_through_methods_of_one_count() {
     assert_eq!(model.status.text, "16 samples a pixel");
     press(&mut model, KeyCode::Char('1'));
     assert_eq!(caption(&model), "B unfiltered 16 spp");
+    press(&mut model, KeyCode::Char('m'));
+    assert_eq!(caption(&model), "B reference", "round and round");
+    press(&mut model, KeyCode::Char('b'));
+    assert_eq!(caption(&model), "B unfiltered 16 spp");
 }
 
 #[test]

@@ -102,6 +102,27 @@ pub(super) fn columns(text: &str) -> usize {
     Span::raw(text).width()
 }
 
+/// A name that fits its room: of one that is too long both ends are kept, as names of scenes differ in either.
+pub(super) fn shortened(name: &str, room: usize) -> String {
+    if columns(name) <= room {
+        return name.to_owned();
+    }
+    let mut ends = [String::new(), String::new()];
+    let (mut front, mut back) = (name.chars(), name.chars().rev());
+    for turn in 0.. {
+        // Two at the end for one at the beginning.
+        let (end, next) = if turn % 3 == 0 { (0, front.next()) } else { (1, back.next()) };
+        let Some(next) = next else { break };
+        let taken = columns(&ends[0]) + columns(&ends[1]) + columns(next.encode_utf8(&mut [0; 4]));
+        if taken + 1 > room {
+            break;
+        }
+        ends[end].push(next);
+    }
+    let [front, back] = ends;
+    format!("{front}…{}", back.chars().rev().collect::<String>())
+}
+
 /// A word in pieces of at most this width.
 fn pieces(word: &str, room: usize) -> Vec<String> {
     let mut pieces = vec![String::new()];
@@ -153,6 +174,13 @@ mod tests {
         let lines = paragraph("  here ", "one two three", 15, Style::new());
         let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
         assert_eq!(lines, ["  here one two", "       three"]);
+    }
+
+    #[test]
+    fn long_names_keep_both_ends() {
+        assert_eq!(shortened("small-twill-ggx-0.2-16-texels", 16), "small…-16-texels");
+        assert_eq!(shortened("short", 5), "short");
+        assert_eq!(shortened("界界界界", 5).chars().count(), 3);
     }
 
     proptest! {

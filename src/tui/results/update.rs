@@ -34,6 +34,8 @@ impl Results {
             Action::Back => results.back(),
             Action::NextScene => return results.leap(1),
             Action::PreviousScene => return results.leap(-1),
+            Action::NextImage => results.step(1),
+            Action::PreviousImage => results.step(-1),
             Action::Samples => return Self::next_count(model),
             Action::OpenReport => return Self::open_written(model),
             _ => {
@@ -208,6 +210,16 @@ impl Results {
             _ => Order::Films(self.ticket, files),
         };
         vec![Effect::Results(order)]
+    }
+
+    /// Goes to the next image on the side shown, or the one before, round and round: there may be more than digits.
+    fn step(&mut self, by: isize) {
+        if let Some(book) = &mut self.book
+            && !book.viewer.shots.is_empty()
+        {
+            let at = book.viewer.side(book.viewer.on) as isize + by;
+            book.viewer.pick(at.rem_euclid(book.viewer.shots.len() as isize) as usize);
+        }
     }
 
     fn next_count(model: &mut Model) -> Vec<Effect> {

@@ -20,7 +20,7 @@ use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
 use super::layout::{first, outside};
-use super::text::{about, claims, columns, mark, paragraph};
+use super::text::{about, claims, columns, mark, paragraph, shortened};
 use super::{Book, Focus, Item, Layout, Results, Shown, Stack};
 use crate::experiment::results::Picture;
 use crate::tui::model::Model;
@@ -65,6 +65,7 @@ fn list(results: &Results, area: Rect, frame: &mut Frame) {
     let room = usize::from(area.height);
     let line = |(place, name): (usize, String)| {
         let here = place == chosen;
+        let name = shortened(&name, usize::from(area.width).saturating_sub(1));
         let text = format!("{}{name}", if here { "▸" } else { " " });
         let style = if here && focus { Modifier::REVERSED } else { Modifier::empty() };
         Line::styled(text, Style::new().add_modifier(style))
@@ -133,7 +134,7 @@ fn images(book: &Book, stack: &Stack, area: Rect, frame: &mut Frame) {
         };
         let head = format!("{key} {}{} ", side(0, "A"), side(1, "B"));
         let room = usize::from(area.width).saturating_sub(columns(&head) + columns(&error) + 1);
-        let label: String = image.label.chars().take(room).collect();
+        let label = shortened(&image.label, room);
         let gap = " ".repeat(room.saturating_sub(columns(&label)) + 1);
         let shown = viewer.side(viewer.on) == number;
         let style = if shown { Modifier::BOLD } else { Modifier::empty() };
