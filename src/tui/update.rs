@@ -25,6 +25,7 @@ pub fn update(model: &mut Model, message: Message) -> Vec<Effect> {
         }
         Message::Tick(now) => {
             model.now = now;
+            model.experiments.tick(now);
             Vec::new()
         }
         Message::Ending(signal) => vec![Effect::Quit(Some(signal))],

@@ -18,6 +18,7 @@ fn chart<'a>(series: &'a [Series], floor: Option<f64>) -> Chart<'a> {
         up: ("RMSE", Scale::Decades),
         series,
         floor: floor.map(|level| (level, "the reference’s own error")),
+        nothing: "nothing measured yet",
         chosen: None,
     }
 }
@@ -25,7 +26,11 @@ fn chart<'a>(series: &'a [Series], floor: Option<f64>) -> Chart<'a> {
 fn drawn(chart: &Chart, width: u16, height: u16) -> String {
     let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
     chart.render(buffer.area, &mut buffer);
-    let rows = buffer.content.chunks(width.max(1).into());
+    text(&buffer)
+}
+
+fn text(buffer: &Buffer) -> String {
+    let rows = buffer.content.chunks(buffer.area.width.max(1).into());
     let row = |cells: &[ratatui::buffer::Cell]| {
         cells.iter().map(ratatui::buffer::Cell::symbol).collect::<String>().trim_end().to_owned()
     };
@@ -71,6 +76,25 @@ fn no_point_and_points_on_each_other() {
     let text = drawn(&chart(&equal, None), 60, 12);
     assert!(text.contains('*') && text.contains("a averaged") && text.contains("l lean"), "{text}");
     assert_eq!(drawn(&chart(&equal, None), 15, 12).trim(), "no room for a c");
+}
+
+#[test]
+fn bars_end_with_their_values() {
+    let labels = ["unfiltered", "averaged", "olano-north"].map(|n| (n.to_owned(), n.to_owned()));
+    let bar = |((name, _), (key, value)): (&(String, String), (Key, f64))| Bar {
+        name: name.clone(),
+        key,
+        value,
+    };
+    let values = [0.81, 0.4, 0.0123];
+    let bars: Vec<Bar> =
+        labels.iter().zip(keys(&labels).into_iter().zip(values)).map(bar).collect();
+    let drawn = |width, height| {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
+        Bars { title: "distance", bars: &bars }.render(buffer.area, &mut buffer);
+        text(&buffer)
+    };
+    insta::assert_snapshot!([drawn(50, 5), drawn(30, 3), drawn(5, 1)].join("\n\n"));
 }
 
 proptest! {

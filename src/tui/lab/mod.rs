@@ -2,10 +2,14 @@
 
 mod bench;
 mod disc;
+#[cfg(test)]
+pub(in crate::tui) mod fixture;
 mod setting;
 mod setup;
 mod told;
 mod update;
+#[cfg(test)]
+mod update_tests;
 mod view;
 mod worker;
 

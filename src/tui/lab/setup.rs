@@ -114,6 +114,7 @@ impl Setup {
         let mut sweep = Table::new();
         sweep.insert("texture".into(), list([texture.as_str()]));
         sweep.insert("method".into(), list(["unfiltered"]));
+        sweep.insert("texels_per_pixel".into(), list([TEXELS]));
         let mut table = Table::new();
         table.insert("title".into(), format!("{stem} in the lab").into());
         table.insert("sweep".into(), sweep.into());

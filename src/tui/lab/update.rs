@@ -40,8 +40,8 @@ pub fn act(model: &mut Model, pressed: Pressed) -> Vec<Effect> {
         Action::NextFocus => return turn_focus(lab, 1),
         Action::PreviousFocus => return turn_focus(lab, -1),
         Action::Save => return save(model),
-        Action::Up => return choose(lab, -1),
-        Action::Down => return choose(lab, 1),
+        Action::Up => return choose(model, -1),
+        Action::Down => return choose(model, 1),
         Action::SortNext => {
             lab.by = match lab.by {
                 By::Number => By::Error,
@@ -202,13 +202,22 @@ fn turn_focus(lab: &mut Lab, by: i32) -> Vec<Effect> {
     Vec::new()
 }
 
-fn choose(lab: &mut Lab, by: isize) -> Vec<Effect> {
+/// Another setting or method; of a method, what it does is said.
+fn choose(model: &mut Model, by: isize) -> Vec<Effect> {
+    let lab = &mut model.lab;
     let settings = lab.spec.as_ref().map_or(0, |spec| Setting::all(spec).len());
     let (at, count) = match lab.focus {
         Focus::Settings => (&mut lab.setting, settings),
         _ => (&mut lab.row, lab.rows.len()),
     };
     *at = at.saturating_add_signed(by).min(count.saturating_sub(1));
+    if lab.focus == Focus::Methods
+        && let Some(row) = lab.order().get(lab.row).and_then(|method| lab.rows.get(*method))
+    {
+        let said = row.refused.clone().unwrap_or_else(|| row.summary.clone());
+        let said = format!("{}: {said}", row.label);
+        model.say(said, false);
+    }
     Vec::new()
 }
 

@@ -27,7 +27,7 @@ use crate::tui::view::{panel, share};
 use crate::tui::viewer::{Side, values};
 
 /// Columns of the panels on the right, where there is room for more than the least.
-const RIGHT: [u16; 2] = [34, 46];
+const RIGHT: [u16; 2] = [34, 64];
 /// The lab's pictures.
 const PICTURE: Slot = Slot(0);
 const TRUTH: Slot = Slot(1);
@@ -121,7 +121,7 @@ pub fn draw(model: &Model, gallery: &Gallery, _area: Rect, frame: &mut Frame) {
         settings(&model.lab, area, frame);
     }
     if let Some(area) = layout.normals {
-        normals(model, gallery, area, frame);
+        normals(&model.lab, gallery, area, frame);
     }
 }
 
@@ -273,12 +273,11 @@ fn settings(lab: &Lab, area: Rect, frame: &mut Frame) {
 }
 
 /// The true distribution and those of the sides' methods, each with its words above.
-fn normals(model: &Model, gallery: &Gallery, area: Rect, frame: &mut Frame) {
-    let lab = &model.lab;
+fn normals(lab: &Lab, gallery: &Gallery, area: Rect, frame: &mut Frame) {
     let across = lab.under.as_ref().and_then(|under| under.texels_across);
     let title = match across {
-        Some(texels) => format!("Normals under the cursor, {} texels across", brief(texels)),
-        None => "Normals under the cursor".to_owned(),
+        Some(texels) => format!("Normals, {} texels across", brief(texels)),
+        None => "Normals".to_owned(),
     };
     frame.render_widget(panel(&title, lab.focus == Focus::Normals), outside(area));
     let Some(under) = &lab.under else { return };
@@ -300,7 +299,7 @@ fn normals(model: &Model, gallery: &Gallery, area: Rect, frame: &mut Frame) {
     let place =
         |i: u16| Rect::new(area.x + i * width, area.y, width.saturating_sub(1), area.height);
     let truth = ["truth".to_owned(), String::new()];
-    disc(model, gallery, TRUTH, Disc::truth(under), truth, place(0), frame);
+    disc(gallery, TRUTH, Disc::truth(under), truth, place(0), frame);
     for (i, (side, held)) in shown.into_iter().enumerate() {
         let label = lab.rows.get(held.method).map_or("", |row| row.label.as_str());
         let lobes = held.axes.len();
@@ -312,12 +311,11 @@ fn normals(model: &Model, gallery: &Gallery, area: Rect, frame: &mut Frame) {
                 if lobes == 1 { "lobe" } else { "lobes" }
             ),
         ];
-        disc(model, gallery, HELD[i], Disc::held(under, held), words, place(i as u16 + 1), frame);
+        disc(gallery, HELD[i], Disc::held(under, held), words, place(i as u16 + 1), frame);
     }
 }
 
 fn disc(
-    _model: &Model,
     gallery: &Gallery,
     slot: Slot,
     disc: Disc,

@@ -81,8 +81,11 @@ impl Worker {
     }
 
     fn want(&self, wanted: Option<Wanted>) {
-        *lock(&self.desk.wanted) = wanted;
+        let mut waiting = lock(&self.desk.wanted);
+        *waiting = wanted;
+        // Counted under the lock: whoever takes an order knows its number.
         self.desk.orders.fetch_add(1, Ordering::Relaxed);
+        drop(waiting);
         self.desk.arrived.notify_one();
     }
 }

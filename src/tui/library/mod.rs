@@ -16,7 +16,7 @@ mod tests;
 pub use claims::{Claim, PaperRow};
 pub use images::{ImageFile, SceneImages};
 pub use listed::{Kind, Listed, experiments, listed};
-pub use opened::{Opened, open};
+pub use opened::{Opened, open, parts};
 pub use reports::{Report, reports};
 pub use rows::Row;
 

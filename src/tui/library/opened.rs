@@ -112,7 +112,7 @@ fn scenes(folder: &Path, metrics: &Metrics, problems: &mut Vec<String>) -> Vec<S
 }
 
 /// The reports of a paper's parts that are in its folder.
-pub(super) fn parts(folder: &Path) -> Vec<(String, PathBuf)> {
+pub fn parts(folder: &Path) -> Vec<(String, PathBuf)> {
     let within = entries(folder, |path| path.is_dir());
     within.into_iter().filter(|(_, path)| Report::is_one(path)).collect()
 }

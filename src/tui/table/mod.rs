@@ -7,7 +7,7 @@ mod tests;
 
 use std::cmp::Ordering;
 
-pub use view::TableView;
+pub use view::{TableView, fitted};
 
 /// A column.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,6 +165,15 @@ impl Table {
             self.sort();
             self.chosen = self.order.iter().position(|place| Some(*place) == row).unwrap_or(0);
         }
+    }
+
+    /// Sorts by the column of this title, from the greatest if the second says so; not at all if there is none.
+    pub fn sort_by_title(&mut self, by: Option<(String, bool)>) {
+        self.by = by.and_then(|(title, descending)| {
+            let place = self.columns.iter().position(|column| column.title == title)?;
+            Some((place, descending))
+        });
+        self.sort();
     }
 
     /// The column it is sorted by, and whether from the greatest.

@@ -136,7 +136,7 @@ fn first_row(chosen: usize, all: usize, room: usize) -> usize {
 }
 
 /// A text cut to a width, with a sign that it was.
-pub(super) fn fitted(text: &str, width: u16) -> String {
+pub fn fitted(text: &str, width: u16) -> String {
     if wide(text) <= width {
         return text.to_owned();
     }
