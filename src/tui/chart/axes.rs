@@ -6,14 +6,15 @@ use ratatui::text::Span;
 
 use super::{Chart, cell, dim};
 use crate::report::axis::Axis;
+use crate::report::phrase;
 
 /// Draws both axes into `area`; what remains between them.
 pub(super) fn draw(chart: &Chart, [x, y]: [&Axis; 2], area: Rect, buffer: &mut Buffer) -> Rect {
-    let labels: Vec<(f64, String)> = labelled(y);
+    let below = if area.height >= 9 { 3 } else { 2 };
+    let labels = labelled(y, area.height - 1 - below, 8);
     let widest =
         labels.iter().map(|(_, label)| width(label)).max().unwrap_or(0).min(area.width / 3);
     // Above: the title of what goes up. Below: the axis, its labels, its title.
-    let below = if area.height >= 9 { 3 } else { 2 };
     let plot = Rect {
         x: area.x + widest + 1,
         y: area.y + 1,
@@ -69,7 +70,7 @@ fn level(x: &Axis, plot: Rect, area: Rect, buffer: &mut Buffer) {
         buffer.set_string(column, plot.bottom(), "─", dim());
     }
     let mut free = area.x;
-    for (value, label) in labelled(x) {
+    for (value, label) in labelled(x, plot.width, 24) {
         let column = cell(plot, x.place(value).into(), 0.0).0;
         let long = width(&label);
         // Below its tick, but within the area.
@@ -83,8 +84,19 @@ fn level(x: &Axis, plot: Rect, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The ticks that have labels.
-fn labelled(axis: &Axis) -> Vec<(f64, String)> {
+/// The ticks that have labels on an axis of so many cells. Where `apart` cells or more are between powers of ten, 2 and
+/// 5 times them have labels as well.
+fn labelled(axis: &Axis, cells: u16, apart: u16) -> Vec<(f64, String)> {
+    let powers = axis.ticks.iter().any(|tick| tick.label.contains("^{"));
+    let decades = libm::log10(axis.high / axis.low);
+    if powers && f64::from(cells) >= decades * f64::from(apart) {
+        let round = |value: f64| {
+            let times = value / libm::pow(10.0, libm::log10(value * (1.0 + 1e-9)).floor());
+            [1.0, 2.0, 5.0].iter().any(|of| (times - of).abs() < 1e-6)
+        };
+        let values = axis.ticks.iter().map(|tick| tick.value).filter(|value| round(*value));
+        return values.map(|value| (value, phrase::scale(value))).collect();
+    }
     let ticks = axis.ticks.iter().filter(|tick| !tick.label.is_empty());
     ticks.map(|tick| (tick.value, raised(&tick.label))).collect()
 }

@@ -10,6 +10,9 @@ use super::{Chart, SEVERAL, Series, dim};
 /// A chart this wide or wider has its legend at its side.
 const WIDE: u16 = 56;
 
+/// What stands beside the mark of several points.
+const SEVERAL_WORDS: &str = "several points";
+
 /// Where a legend stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
@@ -24,7 +27,9 @@ pub(super) fn split(chart: &Chart, area: Rect) -> (Rect, Place) {
     let names = chart.series.iter().map(|series| Span::raw(series.name.as_str()).width() as u16);
     let widest = names.max().unwrap_or(0);
     if area.width >= WIDE {
-        let width = (widest + 3).min(area.width * 2 / 5);
+        let marks =
+            if chart.series.len() > 1 { SEVERAL_WORDS.chars().count() as u16 + 3 } else { 0 };
+        let width = (widest + 3).max(marks).min(area.width * 2 / 5);
         let plot = Rect { width: area.width - width, ..area };
         return (plot, Place::Beside(Rect { x: plot.right(), width, ..area }));
     }
@@ -55,7 +60,7 @@ fn lines(chart: &Chart, width: u16) -> u16 {
 pub(super) fn draw(chart: &Chart, place: Place, several: bool, buffer: &mut Buffer) {
     match place {
         Place::Beside(area) => beside(chart, area, several, buffer),
-        Place::Below(area) => below(chart, area, buffer),
+        Place::Below(area) => below(chart, area, several, buffer),
     }
 }
 
@@ -73,11 +78,11 @@ fn beside(chart: &Chart, area: Rect, several: bool, buffer: &mut Buffer) {
         let more = format!("… and {} more", all - shown);
         buffer.set_stringn(from, row, more, room.into(), dim());
     } else if row + 1 < area.bottom() && several {
-        buffer.set_stringn(from, row + 1, format!("{SEVERAL} several points"), room.into(), dim());
+        buffer.set_stringn(from, row + 1, format!("{SEVERAL} {SEVERAL_WORDS}"), room.into(), dim());
     }
 }
 
-fn below(chart: &Chart, area: Rect, buffer: &mut Buffer) {
+fn below(chart: &Chart, area: Rect, several: bool, buffer: &mut Buffer) {
     let (mut column, mut row) = (area.x, area.y);
     for (place, series) in chart.series.iter().enumerate() {
         let wide = entry(series).min(area.width);
@@ -89,6 +94,10 @@ fn below(chart: &Chart, area: Rect, buffer: &mut Buffer) {
         }
         name(chart, place, (column, row), wide, buffer);
         column += wide;
+    }
+    let words = format!("{SEVERAL} {SEVERAL_WORDS}");
+    if several && usize::from(area.right().saturating_sub(column)) >= words.len() {
+        buffer.set_string(column, row, words, dim());
     }
 }
 

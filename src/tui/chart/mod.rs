@@ -65,6 +65,8 @@ pub struct Chart<'a> {
     pub series: &'a [Series],
     /// A level below which nothing can be told apart, and its name.
     pub floor: Option<(f64, &'a str)>,
+    /// What is said where there is no point to show.
+    pub nothing: &'a str,
     /// The series that is drawn above all others, bold.
     pub chosen: Option<usize>,
 }
@@ -122,6 +124,9 @@ impl Widget for &Chart<'_> {
     fn render(self, area: Rect, buffer: &mut Buffer) {
         let area = area.intersection(buffer.area);
         const LEAST: (u16, u16) = (20, 6);
+        if area.is_empty() {
+            return;
+        }
         if area.width < LEAST.0 || area.height < LEAST.1 {
             let text = "no room for a chart";
             buffer.set_stringn(area.x, area.y, text, area.width.into(), dim());
@@ -131,9 +136,8 @@ impl Widget for &Chart<'_> {
         let [x, y] = self.axes();
         let plot = axes::draw(self, [&x, &y], plot_and_axes, buffer);
         let several = if self.shown().all(|(_, points)| points.is_empty()) {
-            let text = "nothing measured yet";
             let middle = plot.y + plot.height / 2;
-            buffer.set_stringn(plot.x + 1, middle, text, plot.width.into(), dim());
+            buffer.set_stringn(plot.x + 1, middle, self.nothing, plot.width.into(), dim());
             false
         } else {
             self.draw_floor(&y, plot, buffer);

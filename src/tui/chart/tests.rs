@@ -18,6 +18,7 @@ fn chart<'a>(series: &'a [Series], floor: Option<f64>) -> Chart<'a> {
         up: ("RMSE", Scale::Decades),
         series,
         floor: floor.map(|level| (level, "the reference’s own error")),
+        nothing: "nothing measured yet",
         chosen: None,
     }
 }

@@ -358,7 +358,7 @@ impl Experiments {
         let running = self.is_chosen_running();
         let new = self.board().map(|board| shown(board, self.plot, &self.which, running));
         let new = new.unwrap_or_default();
-        if self.table.columns() != new.columns {
+        if !new.columns.is_empty() && self.table.columns() != new.columns {
             let by = self
                 .table
                 .sorted_by()

@@ -90,7 +90,8 @@ pub fn draw_progress(run: &Run, area: Rect, frame: &mut Frame) {
     let head = format!("{} {} ", run.state.sign(), run.name);
     let tail = format!(" {:>3} %  {left}", (100.0 * part).floor());
     let width = usize::from(area.width);
-    let room = width.saturating_sub(head.chars().count() + tail.chars().count() + 2).min(60);
+    // A space, and the ends of the bar.
+    let room = width.saturating_sub(head.chars().count() + tail.chars().count() + 4).min(60);
     let all = format!(" {head}▕{}▏{tail}", share(part, room));
     let place = match (progress.scenes, progress.trials) {
         ((_, 0), _) => "reading what it needs".to_owned(),

@@ -14,7 +14,7 @@ use crate::tui::view::panel;
 /// Draws the chart. The method of the table's chosen row stands out while the table has the focus.
 pub fn draw_chart(pane: &Experiments, area: Rect, frame: &mut Frame) {
     let shown = &pane.shown;
-    let title = format!("{} · {}", pane.plot.title(), shown.of);
+    let title = of(pane.plot.title(), pane);
     let block = panel(&title, false);
     let inside = block.inner(area);
     frame.render_widget(&block, area);
@@ -39,8 +39,20 @@ pub fn draw_chart(pane: &Experiments, area: Rect, frame: &mut Frame) {
     };
     let chosen = shown.series.iter().position(|series| Some(&series.name) == method);
     let floor = shown.floor.map(|floor| (floor, "the reference’s own error"));
-    let chart = Chart { across, up, series: &shown.series, floor, chosen };
+    let nothing = match pane.plot {
+        Plot::Flicker => "nothing moves, or a last frame is still to come",
+        _ => "nothing measured yet",
+    };
+    let chart = Chart { across, up, series: &shown.series, floor, nothing, chosen };
     frame.render_widget(&chart, inside);
+}
+
+/// A title with the scenes that are shown.
+fn of(title: &str, pane: &Experiments) -> String {
+    match pane.shown.of.as_str() {
+        "" => title.to_owned(),
+        scenes => format!("{title} · {scenes}"),
+    }
 }
 
 /// Draws the table.
@@ -51,7 +63,7 @@ pub fn draw_table(pane: &Experiments, area: Rect, frame: &mut Frame) {
     } else {
         format!(", {} of {}", pane.table.chosen() + 1, pane.table.len())
     };
-    let title = format!("Trials · {}{place}", pane.shown.of);
+    let title = format!("{}{place}", of("Trials", pane));
     let block = panel(&title, focused);
     let inside = block.inner(area);
     frame.render_widget(&block, area);
