@@ -33,7 +33,7 @@ pub(super) fn draw(chart: &Chart, [x, y]: [&Axis; 2], area: Rect, buffer: &mut B
 }
 
 /// What goes up, and what is not shown.
-fn heading(chart: &Chart, area: Rect, buffer: &mut Buffer) {
+pub(super) fn heading(chart: &Chart, area: Rect, buffer: &mut Buffer) {
     buffer.set_stringn(area.x, area.y, chart.up.0, area.width.into(), dim());
     let left_out = chart.left_out();
     if left_out > 0 {
