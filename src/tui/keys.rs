@@ -191,6 +191,9 @@ pub enum Action {
     CursorRight,
     // Results.
     Back,
+    Samples,
+    NextImage,
+    PreviousImage,
 }
 
 /// A row of the table.
@@ -368,6 +371,15 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Results, &[k(KeyCode::Esc), k(KeyCode::Backspace)], A::Back, "back", "back"),
         bind(C::Results, &[c(']')], A::NextScene, "the next scene or row", "scene"),
         bind(C::Results, &[c('[')], A::PreviousScene, "the scene or row before", ""),
+        bind(C::Results, &[c('m')], A::NextImage, "the next image, on the side shown", "image"),
+        bind(C::Results, &[c('b')], A::PreviousImage, "the image before", ""),
+        bind(
+            C::Results,
+            &[c('n')],
+            A::Samples,
+            "images of the next number of samples a pixel",
+            "spp",
+        ),
         bind(C::Results, &[c('o')], A::OpenReport, "open the written report", "report"),
         // Everywhere.
         bind(C::Everywhere, &[k(KeyCode::F(1)), c('E')], A::ToExperiments, "experiments", ""),

@@ -14,7 +14,7 @@ mod probe;
 mod screen;
 
 pub use choice::{Colours, Pictures};
-pub use depth::{Depth, environment};
+pub use depth::{Depth, entry_rgb, environment};
 pub use encoder::{Encoded, Encoder, Wish};
 pub use flat::Flat;
 pub use gallery::Gallery;

@@ -1,15 +1,30 @@
 //! The pane of results: reports of earlier runs, their images and verdicts.
+//!
+//! Reports are listed; one that is looked into (a [`Book`]) is a list of scenes and plots, or of a paper's rows and
+//! their figures. What is chosen there is read by a thread and shown beside the list.
+
+mod book;
+mod layout;
+mod text;
+mod update;
+mod view;
+mod worker;
+
+#[cfg(test)]
+mod tests;
+
+pub use book::{Book, Image, Item, Shown, Stack};
+pub use layout::Layout;
+pub use view::draw;
+pub use worker::Worker;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ratatui::Frame;
-use ratatui::layout::{Position, Rect};
-
-use super::keys::{Context, Pressed};
-use super::message::Effect;
-use super::model::Model;
-use super::picture::Gallery;
+use super::keys::Context;
+use super::library::{Opened, Report};
+use crate::experiment::results::Picture;
+use crate::render::Film;
 
 /// What of the pane has the focus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,7 +32,7 @@ pub enum Focus {
     /// A list.
     #[default]
     List,
-    /// The picture.
+    /// What is beside it: images, a plot, a row's claims.
     Picture,
 }
 
@@ -39,50 +54,40 @@ impl Focus {
 pub struct Results {
     /// What has the focus.
     pub focus: Focus,
+    /// The reports; none before they have been looked for.
+    pub reports: Option<Vec<Report>>,
+    /// The one chosen.
+    pub report: usize,
+    /// The one being opened.
+    pub opening: Option<PathBuf>,
+    /// The one looked into.
+    pub book: Option<Book>,
+    /// Counts what was asked to be read, so that what comes late is known.
+    pub ticket: u64,
 }
 
-/// What is asked of the threads.
+/// What is asked of the thread.
 #[derive(Clone, Debug)]
-pub enum Order {}
+pub enum Order {
+    /// To list the reports.
+    List,
+    /// To open the one in a folder.
+    Open(PathBuf),
+    /// To read images, each with its place among them.
+    Films(u64, Vec<(usize, PathBuf)>),
+    /// To read a plot.
+    Plot(u64, PathBuf),
+}
 
-/// What the threads tell.
+/// What the thread tells.
 #[derive(Clone, Debug)]
-pub enum Told {}
-
-impl Results {
-    /// Does what a key asks.
-    pub fn act(_model: &mut Model, _pressed: Pressed) -> Vec<Effect> {
-        Vec::new()
-    }
-
-    /// The pane is shown.
-    pub fn enter(_model: &mut Model) -> Vec<Effect> {
-        Vec::new()
-    }
-
-    /// Does what a click asks.
-    pub fn click(_model: &mut Model, _at: Position) -> Vec<Effect> {
-        Vec::new()
-    }
-
-    /// Takes in what was told.
-    pub fn take(_model: &mut Model, told: Told) -> Vec<Effect> {
-        match told {}
-    }
+pub enum Told {
+    /// The reports there are.
+    Listed(Vec<Report>),
+    /// A report, opened.
+    Opened(Box<Opened>),
+    /// An image, or why it cannot be read.
+    Film(u64, usize, Result<Arc<Film>, String>),
+    /// A plot, or why it cannot be read.
+    Plot(u64, Result<Arc<Picture>, String>),
 }
-
-/// The threads of the results.
-pub struct Worker {}
-
-impl Worker {
-    /// Starts them; reports are in `reports`.
-    pub fn start(_tell: Arc<dyn Fn(Told) + Send + Sync>, _reports: PathBuf) -> Self {
-        Self {}
-    }
-
-    /// Passes an order on; never waits.
-    pub fn order(&self, _order: Order) {}
-}
-
-/// Draws the pane.
-pub fn draw(_model: &Model, _gallery: &Gallery, _area: Rect, _frame: &mut Frame) {}
