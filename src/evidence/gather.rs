@@ -316,7 +316,10 @@ mod tests {
             reference = { spp = 16, replicates = 2 }
             sweep = { texture = ["flat"], method = ["unfiltered"], spp = [1], unfiltered_spp = [1], texels_per_pixel = [1.0, 2.0] }
         "#;
-        let part = |name: &str| Spec { name: name.into(), ..Spec::parse(PART, Path::new("x.toml")).unwrap() };
+        let part = |name: &str| Spec {
+            name: name.into(),
+            ..Spec::parse(PART, Path::new("x.toml")).unwrap()
+        };
         let spec = PaperSpec { parts: vec![part("one"), part("two")], ..spec() };
         let told = Arc::new(Mutex::new(Vec::new()));
         let telling = Arc::clone(&told);
@@ -329,9 +332,13 @@ mod tests {
             _ => None,
         };
         let (one, two) = (Some("one".to_owned()), Some("two".to_owned()));
-        let all = [(one.clone(), 1, 5), (one, 2, 5), (two.clone(), 3, 5), (two, 4, 5), (None, 5, 5)];
+        let all =
+            [(one.clone(), 1, 5), (one, 2, 5), (two.clone(), 3, 5), (two, 4, 5), (None, 5, 5)];
         assert_eq!(told.iter().filter_map(scene).collect::<Vec<_>>(), all);
-        assert_eq!(told.iter().filter(|event| matches!(event, RunEvent::Started { .. })).count(), 1);
+        assert_eq!(
+            told.iter().filter(|event| matches!(event, RunEvent::Started { .. })).count(),
+            1
+        );
         let row = |event: &&RunEvent| matches!(event, RunEvent::Working { what, .. } if what.starts_with("bumps-f1"));
         assert_eq!(told.iter().filter(row).count(), 1);
     }

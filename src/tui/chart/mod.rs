@@ -164,9 +164,10 @@ impl Chart<'_> {
         };
         let seen = self.seen_floor().is_some();
         let row = if seen { cell(plot, 0.0, y.place(level).into()).1 } else { plot.bottom() - 1 };
-        let name = if seen { name.to_owned() } else { format!("{name} ↓ {}", phrase::number(level)) };
-        for column in plot.left()..plot.right() {
-            if seen {
+        let name =
+            if seen { name.to_owned() } else { format!("{name} ↓ {}", phrase::number(level)) };
+        if seen {
+            for column in plot.left()..plot.right() {
                 buffer[(column, row)].set_symbol("┄").set_style(dim());
             }
         }
