@@ -105,8 +105,17 @@ impl Chart<'_> {
         on(x, self.across.1) && on(y, self.up.1)
     }
 
-    fn left_out(&self) -> usize {
-        self.series.iter().flat_map(|s| &s.points).filter(|point| !self.shows(**point)).count()
+    /// What the chart does not show: a floor far below, points that have no place.
+    fn unseen(&self) -> Vec<String> {
+        let below = self.floor.filter(|(level, _)| self.shows((1.0, *level)) && self.seen_floor().is_none());
+        let floor = below.map(|(level, name)| format!("{name}: {} ↓", phrase::number(level)));
+        let points = self.series.iter().flat_map(|series| &series.points);
+        let left_out = match points.filter(|point| !self.shows(**point)).count() {
+            0 => None,
+            1 => Some("1 point has no place here".to_owned()),
+            count => Some(format!("{count} points have no place here")),
+        };
+        left_out.into_iter().chain(floor).collect()
     }
 
     /// Series in the order they are drawn: the chosen one last.
@@ -157,19 +166,11 @@ impl Widget for &Chart<'_> {
 }
 
 impl Chart<'_> {
-    /// Draws the floor; where it is far below, its level at the lower edge.
     fn draw_floor(&self, y: &Axis, plot: Rect, buffer: &mut Buffer) {
-        let Some((level, name)) = self.floor.filter(|(level, _)| self.shows((1.0, *level))) else {
-            return;
-        };
-        let seen = self.seen_floor().is_some();
-        let row = if seen { cell(plot, 0.0, y.place(level).into()).1 } else { plot.bottom() - 1 };
-        let name =
-            if seen { name.to_owned() } else { format!("{name} ↓ {}", phrase::number(level)) };
-        if seen {
-            for column in plot.left()..plot.right() {
-                buffer[(column, row)].set_symbol("┄").set_style(dim());
-            }
+        let (Some(level), Some((_, name))) = (self.seen_floor(), self.floor) else { return };
+        let row = cell(plot, 0.0, y.place(level).into()).1;
+        for column in plot.left()..plot.right() {
+            buffer[(column, row)].set_symbol("┄").set_style(dim());
         }
         let width = name.chars().count() as u16;
         if width + 2 < plot.width {
