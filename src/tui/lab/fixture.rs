@@ -66,7 +66,10 @@ fn under() -> Under {
 /// The lab with a scene that is done.
 pub fn full(size: [u16; 2], depth: Depth) -> Model {
     let mut model = empty(size, depth);
-    let opened = Told::Opened(Ok(Box::new(setup())));
+    let mut setup = setup();
+    setup.set("image", "width", 32);
+    setup.set("image", "height", 24);
+    let opened = Told::Opened(Ok(Box::new(setup)));
     update(&mut model, Message::Lab(opened));
     let scene = model.lab.scene;
     for finding in findings(model.lab.rows.len()) {

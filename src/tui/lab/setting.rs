@@ -147,8 +147,7 @@ impl Setting {
                 setup.section("camera").remove("target");
             }
             Self::Texels => {
-                let to = texels(spec) * libm::exp2(0.5 * f64::from(steps));
-                let to = rounded(to.clamp(TEXELS[0], TEXELS[1]));
+                let to = doubled(texels(spec), 2.0, steps).clamp(TEXELS[0], TEXELS[1]);
                 setup.set("sweep", "texels_per_pixel", Value::Array(vec![to.into()]));
             }
             Self::Camera => {
@@ -214,12 +213,18 @@ fn stepped(now: f64, step: f64, steps: i32) -> f64 {
     step * (from + f64::from(steps))
 }
 
-/// To four digits: numbers stay readable however often they are doubled and halved.
+/// The next power of two, `parts` of them to a doubling, or so many on: the same numbers up and down.
+fn doubled(now: f64, parts: f64, steps: i32) -> f64 {
+    let at = parts * libm::log2(now);
+    // What was rounded to four digits stands on its step.
+    let at = if (at - at.round()).abs() < 0.01 { at.round() } else { at };
+    rounded(libm::exp2(stepped(at, 1.0, steps.clamp(-200, 200)) / parts))
+}
+
+/// To four digits, so that numbers stay readable.
 fn rounded(value: f64) -> f64 {
-    let unit = libm::pow(10.0, libm::floor(libm::log10(value)) - 3.0);
-    let digits = (value / unit).round() * unit;
     // Through text, so that what is shown is what is meant.
-    format!("{digits:.6}").parse().unwrap_or(value)
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 fn number(value: f64) -> String {
@@ -308,14 +313,14 @@ fn turn_lobe(setup: &mut Setup, spec: &Spec, steps: i32) {
     setup.set("material", key, rounded(value));
 }
 
-/// Wider by 2^¼ in roughness a step; a wider lobe has a smaller exponent.
+/// Changes the lobe's number by quarters of a doubling of its roughness: an exponent goes by its square.
 fn widen(setup: &mut Setup, spec: &Spec, steps: i32) {
-    let (lobe, factor) = (spec.sweep.lobes[0], libm::exp2(0.25 * f64::from(steps)));
+    let lobe = spec.sweep.lobes[0];
     let (key, value) = match lobe.name() {
-        "blinn-phong" => ("exponent", (lobe.parameter() * factor * factor).clamp(1.0, 1e5)),
-        _ => ("alpha", (lobe.parameter() * factor).clamp(0.005, 1.0)),
+        "blinn-phong" => ("exponent", doubled(lobe.parameter(), 2.0, steps).clamp(1.0, 1e5)),
+        _ => ("alpha", doubled(lobe.parameter(), 4.0, steps).clamp(0.005, 1.0)),
     };
-    setup.set("material", key, rounded(value));
+    setup.set("material", key, value);
 }
 
 #[cfg(test)]
@@ -389,7 +394,8 @@ mod tests {
         assert_eq!(stepped(42.0, 5.0, -1), 40.0);
         assert_eq!(stepped(40.0, 5.0, 1), 45.0);
         assert_eq!(stepped(40.0, 5.0, -2), 30.0);
-        assert_eq!(rounded(4.0 * libm::exp2(0.5)), 5.657);
-        assert_eq!(rounded(0.0625), 0.0625);
+        assert_eq!([1, 2].map(|steps| doubled(4.0, 2.0, steps)), [5.657, 8.0]);
+        assert_eq!([-1, 1].map(|steps| doubled(5.657, 2.0, steps)), [4.0, 8.0]);
+        assert_eq!([-1, 1].map(|steps| doubled(60.0, 2.0, steps)), [45.25, 64.0]);
     }
 }

@@ -142,7 +142,7 @@ impl Setup {
         if image[0].1 < SIZE[0] as usize {
             image.iter().zip(SIZE).for_each(|((key, _), side)| self.set("image", key, side));
         }
-        let methods = methods(spec);
+        let methods = methods(spec, &self.table);
         let mut single = Table::new();
         single.insert("texture".into(), list([sweep.textures[0].name.as_str()]));
         single.insert("method".into(), list(methods.iter().map(String::as_str)));
@@ -240,13 +240,16 @@ fn textures(spec: &Spec, table: &Table) -> Vec<String> {
 }
 
 /// Every registered method that takes the spec's surface and light, and the spec's own under other labels.
-fn methods(spec: &Spec) -> Vec<String> {
+fn methods(spec: &Spec, table: &Table) -> Vec<String> {
     let bent = spec.surface.perturbation != crate::surface::Perturbation::Tangent;
     let takes = |name: &str| method::build(name).is_some_and(|method| !bent || method.bends());
     let mut names: Vec<String> =
         FIRST.into_iter().filter(|name| takes(name)).map(str::to_owned).collect();
     let registered = method::entries().into_iter().map(|entry| entry.card.name.to_owned());
-    let own = spec.sweep.methods.iter().map(|method| method.label.clone());
+    // Labels that a list of lookups made are no names: the lab has a lookup of its own.
+    let tables = table.get("method").and_then(Value::as_table);
+    let told = |label: &str| tables.is_some_and(|tables| tables.contains_key(label));
+    let own = spec.sweep.methods.iter().map(|method| method.label.clone()).filter(|l| told(l));
     for name in registered.filter(|name| takes(name)).chain(own) {
         if !names.contains(&name) {
             names.push(name);

@@ -28,6 +28,8 @@ use crate::tui::viewer::{Side, values};
 
 /// Columns of the panels on the right, where there is room for more than the least.
 const RIGHT: [u16; 2] = [34, 64];
+/// Columns of the list of methods from which on it has times.
+const TIMED: u16 = 42;
 /// The lab's pictures.
 const PICTURE: Slot = Slot(0);
 const TRUTH: Slot = Slot(1);
@@ -68,7 +70,7 @@ impl Layout {
         let working = Rect::new(area.x, area.bottom().saturating_sub(1), left, 1);
         let right = Rect::new(area.x + left, area.y, right, area.height);
         let lab = &model.lab;
-        let rows = lab.rows.len() as u16 + 3;
+        let rows = lab.rows.len() as u16 + 5;
         let settings = lab.spec.as_ref().map_or(0, |spec| Setting::all(spec).len()) as u16 + 2;
         let mut layout = Self { picture, working, methods: None, settings: None, normals: None };
         let slice = |from: u16, height: u16| {
@@ -205,29 +207,50 @@ fn methods(model: &Model, area: Rect, frame: &mut Frame) {
     };
     let title = format!("Methods, {by}");
     frame.render_widget(panel(&title, lab.focus == Focus::Methods), outside(area));
-    let name = usize::from(area.width).saturating_sub(28).max(8);
-    let head = format!("{:5}{:name$} {:>7} {:>6} {:>6}", "", "", "RMSE", "ns/px", "worth");
+    let timed = area.width >= TIMED;
+    let numbered = if timed { 22 } else { 15 };
+    let name = usize::from(area.width).saturating_sub(5 + numbered).max(8);
+    let time = if timed { format!(" {:>6}", "ns/px") } else { String::new() };
+    let head = format!("{:5}{:name$} {:>7}{time} {:>6}", "", "", "RMSE", "worth");
     let mut lines = vec![Line::styled(head, Style::new().add_modifier(Modifier::UNDERLINED))];
     let room = usize::from(area.height.saturating_sub(1));
     for (place, method) in lab.order().into_iter().enumerate().skip(first(lab.row, room)).take(room)
     {
         let row = &lab.rows[method];
         let key = if method < 9 { (method + 1).to_string() } else { " ".to_owned() };
-        let text =
-            format!("{key} {} {:name$.name$} {}", sides(lab, method + 1), row.label, numbers(row));
+        let text = format!(
+            "{key} {} {:name$.name$} {}",
+            sides(lab, method + 1),
+            row.label,
+            numbers(row, timed)
+        );
         let mut style = Style::new();
         if place == lab.row && lab.focus == Focus::Methods {
             style = style.add_modifier(Modifier::REVERSED);
         }
         lines.push(Line::styled(text, style));
     }
+    if lines.len() + 2 <= usize::from(area.height) {
+        lines.extend([Side::A, Side::B].iter().filter_map(|side| costs(lab, *side)).map(Line::raw));
+    }
     frame.render_widget(Paragraph::new(lines), area);
 }
 
-/// A method's numbers: error, time, worth.
-fn numbers(row: &Row) -> String {
+/// What the method on a side costs.
+fn costs(lab: &Lab, side: Side) -> Option<String> {
+    let row = lab.rows.get(lab.viewer.side(side).checked_sub(1)?)?;
+    let (time, (secs, bytes)) = (row.ns_per_pixel?, row.built?);
+    Some(format!("{side:?} {time:.0} ns/px, built in {} s, {} B/texel", brief(secs), brief(bytes)))
+}
+
+/// A method's numbers: error, time if asked for, worth.
+fn numbers(row: &Row, timed: bool) -> String {
     if row.refused.is_some() {
-        return format!("{:>21}", "takes no part");
+        return if timed {
+            format!("{:>21}", "takes no part")
+        } else {
+            format!("{:>14}", "takes no part")
+        };
     }
     let error = row.score.map_or_else(|| "…".to_owned(), |score| brief(score.rmse));
     let time = row.ns_per_pixel.map_or_else(|| "…".to_owned(), |ns| format!("{ns:.0}"));
@@ -237,7 +260,8 @@ fn numbers(row: &Row) -> String {
             Equivalent::MoreThan(n) => format!("> {n}"),
             Equivalent::FewerThan(n) => format!("< {n}"),
         });
-    format!("{error:>7} {time:>6} {worth:>6}")
+    let time = if timed { format!(" {time:>6}") } else { String::new() };
+    format!("{error:>7}{time} {worth:>6}")
 }
 
 /// A number of three digits.
