@@ -176,7 +176,11 @@ impl Experiments {
     fn turn_scene(&mut self, steps: isize) {
         let Some(board) = self.board() else { return };
         let mut all = if self.is_chosen_running() { vec![Which::Current] } else { Vec::new() };
-        all.push(Which::All);
+        let parts = board.parts();
+        if parts.is_empty() {
+            all.push(Which::All);
+        }
+        all.extend(parts.into_iter().map(|part| Which::Part(part.to_owned())));
         all.extend(board.scenes.iter().map(|scene| Which::One(scene.slug.clone())));
         let place = all.iter().position(|which| *which == self.which).unwrap_or(0) as isize;
         let next = (place + steps).rem_euclid(all.len() as isize) as usize;
