@@ -255,11 +255,13 @@ impl Exhibit {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Mutex;
     use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
     use super::*;
     use crate::evidence::{Claim, Figure, Images};
     use crate::experiment::runner::unwatched;
+    use crate::experiment::spec::Spec;
     use crate::parameter::Values;
 
     static MADE: AtomicUsize = AtomicUsize::new(0);
@@ -280,6 +282,13 @@ mod tests {
         Row { name: "bumps-f1", title: "Bumps", parts: &[], parameters: &[], secs: 0.0, make };
     const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
 
+    fn quiet(_: &Task) -> Result<Exhibit, super::super::Halted> {
+        Ok(ROW.exhibit())
+    }
+
+    const QUIET: Paper =
+        Paper { name: "bumps-1990", citation: "Bumps", rows: &[Row { make: quiet, ..ROW }] };
+
     fn spec() -> PaperSpec {
         PaperSpec {
             name: "bumps".into(),
@@ -298,6 +307,40 @@ mod tests {
             Gathered::Finished(found) => found.evidence.exhibits,
             Gathered::Halted => panic!("nothing halts it"),
         }
+    }
+
+    #[test]
+    fn watchers_hear_of_parts_and_rows_as_of_one_run() {
+        const PART: &str = r#"
+            image = { width = 8, height = 8 }
+            reference = { spp = 16, replicates = 2 }
+            sweep = { texture = ["flat"], method = ["unfiltered"], spp = [1], unfiltered_spp = [1], texels_per_pixel = [1.0, 2.0] }
+        "#;
+        let part = |name: &str| Spec {
+            name: name.into(),
+            ..Spec::parse(PART, Path::new("x.toml")).unwrap()
+        };
+        let spec = PaperSpec { parts: vec![part("one"), part("two")], ..spec() };
+        let told = Arc::new(Mutex::new(Vec::new()));
+        let telling = Arc::clone(&told);
+        let watch: Watcher = Arc::new(move |event| telling.lock().unwrap().push(event));
+        let folder = tempfile::tempdir().unwrap();
+        gather_rows(&QUIET, &spec, folder.path(), &Halt::default(), &watch).unwrap();
+        let told = told.lock().unwrap();
+        let scene = |event: &RunEvent| match event {
+            RunEvent::Scene { part, number, of, .. } => Some((part.clone(), *number, *of)),
+            _ => None,
+        };
+        let (one, two) = (Some("one".to_owned()), Some("two".to_owned()));
+        let all =
+            [(one.clone(), 1, 5), (one, 2, 5), (two.clone(), 3, 5), (two, 4, 5), (None, 5, 5)];
+        assert_eq!(told.iter().filter_map(scene).collect::<Vec<_>>(), all);
+        assert_eq!(
+            told.iter().filter(|event| matches!(event, RunEvent::Started { .. })).count(),
+            1
+        );
+        let row = |event: &&RunEvent| matches!(event, RunEvent::Working { what, .. } if what.starts_with("bumps-f1"));
+        assert_eq!(told.iter().filter(row).count(), 1);
     }
 
     #[test]

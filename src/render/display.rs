@@ -32,8 +32,10 @@ pub fn percentile(values: impl Iterator<Item = f32>) -> f64 {
 impl Film {
     /// The radiance to show as white: what 99.5 % of the pixels do not exceed; 1 for a black film.
     pub fn white(&self) -> f64 {
-        let found = percentile(self.pixels().iter().copied());
-        if found > 0.0 { found } else { 1.0 }
+        *self.white.get_or_init(|| {
+            let found = percentile(self.pixels().iter().copied());
+            if found > 0.0 { found } else { 1.0 }
+        })
     }
 
     /// Writes the film as a grey 8-bit PNG, its radiances multiplied by `exposure` and encoded as sRGB.

@@ -1,13 +1,24 @@
 //! Films: images of radiance.
 
+use std::sync::OnceLock;
+
 /// A linear, single-channel image: one radiance a pixel.
 ///
 /// Row 0 is the *top* of the picture, as a screen shows it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Film {
     width: usize,
     height: usize,
     pixels: Vec<f32>,
+    /// [`Film::white`], once somebody asked: a screen asks at every frame.
+    pub(super) white: OnceLock<f64>,
+}
+
+impl PartialEq for Film {
+    fn eq(&self, other: &Self) -> bool {
+        let shape = |film: &Self| (film.width, film.height);
+        shape(self) == shape(other) && self.pixels == other.pixels
+    }
 }
 
 impl Film {
@@ -17,7 +28,7 @@ impl Film {
     /// If the number of pixels is not `width · height`: a programming error.
     pub fn new(width: usize, height: usize, pixels: Vec<f32>) -> Self {
         assert_eq!(pixels.len(), width * height, "shape of a film");
-        Self { width, height, pixels }
+        Self { width, height, pixels, white: OnceLock::new() }
     }
 
     /// Pixels across.

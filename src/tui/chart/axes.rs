@@ -33,16 +33,17 @@ pub(super) fn draw(chart: &Chart, [x, y]: [&Axis; 2], area: Rect, buffer: &mut B
 }
 
 /// What goes up, and what is not shown.
-fn heading(chart: &Chart, area: Rect, buffer: &mut Buffer) {
+pub(super) fn heading(chart: &Chart, area: Rect, buffer: &mut Buffer) {
     buffer.set_stringn(area.x, area.y, chart.up.0, area.width.into(), dim());
-    let left_out = chart.left_out();
-    if left_out > 0 {
-        let points = if left_out == 1 { "point has" } else { "points have" };
-        let text = format!("{left_out} {points} no place here");
+    let mut unseen = chart.unseen();
+    while !unseen.is_empty() {
+        let text = unseen.join(" · ");
         let from = area.right().saturating_sub(width(&text));
         if from > area.x + width(chart.up.0) {
             buffer.set_string(from, area.y, text, dim());
+            return;
         }
+        unseen.pop();
     }
 }
 

@@ -27,6 +27,7 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Context, Line};
 
 use crate::report::axis::Axis;
+use crate::report::phrase;
 
 pub use bars::{Bar, Bars};
 pub use key::{Key, keys};
@@ -78,9 +79,17 @@ impl Chart<'_> {
     fn axes(&self) -> [Axis; 2] {
         let shown = || self.shown().flat_map(|(_, points)| points);
         let across = axis(self.across.1, shown().map(|p| p.0).collect());
-        let floor = self.floor.map(|(level, _)| level);
-        let up = axis(self.up.1, shown().map(|p| p.1).chain(floor).collect());
-        [across, up]
+        let mut values: Vec<f64> = shown().map(|p| p.1).collect();
+        values.extend(self.seen_floor());
+        [across, axis(self.up.1, values)]
+    }
+
+    /// The level of the floor, if it is not so far below all points that it would press them together.
+    fn seen_floor(&self) -> Option<f64> {
+        const FAR: f64 = 5.0;
+        let least = self.shown().flat_map(|(_, points)| points).map(|p| p.1).reduce(f64::min)?;
+        let (level, _) = self.floor?;
+        (self.shows((1.0, level)) && least <= FAR * level).then_some(level)
     }
 
     /// The points of each series that can be shown.
@@ -96,8 +105,17 @@ impl Chart<'_> {
         on(x, self.across.1) && on(y, self.up.1)
     }
 
-    fn left_out(&self) -> usize {
-        self.series.iter().flat_map(|s| &s.points).filter(|point| !self.shows(**point)).count()
+    /// What the chart does not show: a floor far below, points that have no place.
+    fn unseen(&self) -> Vec<String> {
+        let below = self.floor.filter(|(level, _)| self.shows((1.0, *level)) && self.seen_floor().is_none());
+        let floor = below.map(|(level, name)| format!("{name}: {} ↓", phrase::number(level)));
+        let points = self.series.iter().flat_map(|series| &series.points);
+        let left_out = match points.filter(|point| !self.shows(**point)).count() {
+            0 => None,
+            1 => Some("1 point has no place here".to_owned()),
+            count => Some(format!("{count} points have no place here")),
+        };
+        left_out.into_iter().chain(floor).collect()
     }
 
     /// Series in the order they are drawn: the chosen one last.
@@ -132,27 +150,24 @@ impl Widget for &Chart<'_> {
             buffer.set_stringn(area.x, area.y, text, area.width.into(), dim());
             return;
         }
+        if self.shown().all(|(_, points)| points.is_empty()) {
+            axes::heading(self, area, buffer);
+            buffer.set_stringn(area.x, area.y + 2, self.nothing, area.width.into(), Style::new());
+            return;
+        }
         let (plot_and_axes, legend) = legend::split(self, area);
         let [x, y] = self.axes();
         let plot = axes::draw(self, [&x, &y], plot_and_axes, buffer);
-        let several = if self.shown().all(|(_, points)| points.is_empty()) {
-            let middle = plot.y + plot.height / 2;
-            buffer.set_stringn(plot.x + 1, middle, self.nothing, plot.width.into(), dim());
-            false
-        } else {
-            self.draw_floor(&y, plot, buffer);
-            self.draw_lines([&x, &y], plot, buffer);
-            self.draw_points([&x, &y], plot, buffer)
-        };
+        self.draw_floor(&y, plot, buffer);
+        self.draw_lines([&x, &y], plot, buffer);
+        let several = self.draw_points([&x, &y], plot, buffer);
         legend::draw(self, legend, several, buffer);
     }
 }
 
 impl Chart<'_> {
     fn draw_floor(&self, y: &Axis, plot: Rect, buffer: &mut Buffer) {
-        let Some((level, name)) = self.floor.filter(|(level, _)| self.shows((1.0, *level))) else {
-            return;
-        };
+        let (Some(level), Some((_, name))) = (self.seen_floor(), self.floor) else { return };
         let row = cell(plot, 0.0, y.place(level).into()).1;
         for column in plot.left()..plot.right() {
             buffer[(column, row)].set_symbol("┄").set_style(dim());

@@ -97,7 +97,7 @@ impl<'a> Choice<'a> {
     fn all(board: &'a Board) -> Self {
         let (scenes, all) = (board.full_scenes(), board.scenes.len());
         let words = match scenes.len() {
-            0 => "no scene".to_owned(),
+            0 => String::new(),
             1 if all == 1 => scenes[0].slug.clone(),
             shown if shown == all => format!("mean over all {all} scenes"),
             shown => format!("mean over {shown} of {all} scenes, where all methods take part"),
@@ -118,7 +118,8 @@ impl<'a> Choice<'a> {
         if super::board::OF_SEQUENCES.contains(&metric) {
             return mean(self.sequences.iter().filter_map(|s| get(s.trials.get(&trial))));
         }
-        let took_part = |scene: &&&Scene| scene.trials.keys().any(|(method, _)| *method == trial.0);
+        let own = (trial.0, 0)..=(trial.0, u32::MAX);
+        let took_part = |scene: &&&Scene| scene.trials.range(own.clone()).next().is_some();
         let scenes = self.scenes.iter().filter(took_part);
         let values: Option<Vec<f64>> = scenes.map(|scene| get(scene.trials.get(&trial))).collect();
         let values = values?.into_iter();
@@ -285,7 +286,7 @@ mod tests {
     fn nothing_is_shown_of_an_empty_board() {
         for which in [Which::Current, Which::All, Which::One("x".into())] {
             let shown = shown(&Board::default(), Plot::Error, &which, true);
-            assert_eq!((shown.of.as_str(), shown.rows.len()), ("no scene", 0));
+            assert_eq!((shown.of.as_str(), shown.rows.len()), ("", 0));
         }
     }
 }

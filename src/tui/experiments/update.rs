@@ -13,9 +13,16 @@ use super::told::{End, Order, Told};
 use super::view::{Layout, first_row};
 use super::{Ask, Experiments, Focus};
 use crate::experiment::runner::RunEvent;
+use crate::job;
 use crate::tui::keys::Action;
 use crate::tui::library::{Listed, Report};
 use crate::tui::table::Table;
+
+/// To look at an experiment in the lab: by its name, or by its path where names do not lead to it.
+fn to_lab(one: &Listed) -> Ask {
+    let named = Path::new(job::FOLDER).join(format!("{}.toml", one.name));
+    Ask::Lab(if one.path == named { one.name.clone() } else { one.path.display().to_string() })
+}
 
 /// Lines that a key for a page goes.
 const PAGE: isize = 10;
@@ -36,9 +43,7 @@ impl Experiments {
             Action::Pause => return self.pause(),
             Action::Cancel => return self.cancel(),
             Action::OpenReport => return vec![self.open_report()],
-            Action::ToLabWith => {
-                return self.chosen().map(|one| Ask::Lab(one.name.clone())).into_iter().collect();
-            }
+            Action::ToLabWith => return self.chosen().map(to_lab).into_iter().collect(),
             Action::NextChart => self.plot = self.plot.next(),
             Action::NextScene => self.turn_scene(1),
             Action::PreviousScene => self.turn_scene(-1),

@@ -72,7 +72,8 @@ fn a_whole_report_is_read_without_a_problem_and_a_damaged_one_as_far_as_it_goes(
     assert_eq!((half.rows.len(), half.title.as_str()), (opened.rows.len(), "A_b"));
     let mut paths: Vec<_> = half.scenes[0].images.iter().map(|image| &image.path).collect();
     let mut before: Vec<_> = opened.scenes[0].images.iter().map(|image| &image.path).collect();
-    (paths.sort(), before.sort());
+    paths.sort();
+    before.sort();
     assert_eq!(paths, before);
 
     // No images.

@@ -115,18 +115,19 @@ impl Table {
         self.rows.is_empty()
     }
 
-    /// Gives it other rows, which are sorted as those before. The chosen row stays the one of the same words, if
-    /// there still is one. A row of more or fewer cells than columns is cut or filled up.
+    /// Gives it other rows, which are sorted as those before. The chosen row stays the one that is alike in the columns
+    /// of the ranks 0 and 1, which tell rows apart, if there still is one. A row of more or fewer cells than columns is cut or filled up.
     pub fn set_rows(&mut self, mut rows: Vec<Vec<Cell>>) {
-        let words = |row: &[Cell]| {
-            let texts = row.iter().filter(|cell| !matches!(cell, Cell::Number(..)));
-            texts.cloned().collect::<Vec<_>>()
+        let own: Vec<bool> = self.columns.iter().map(|column| column.rank <= 1).collect();
+        let name = |row: &[Cell]| {
+            let cells = row.iter().zip(&own).filter(|(_, own)| **own);
+            cells.map(|(cell, _)| cell.clone()).collect::<Vec<_>>()
         };
-        let before = self.chosen_row().map(words);
+        let before = self.chosen_row().map(name);
         rows.iter_mut().for_each(|row| row.resize(self.columns.len(), Cell::None));
         self.rows = rows;
         self.sort();
-        let same = |row: &usize| Some(words(&self.rows[*row])) == before;
+        let same = |row: &usize| Some(name(&self.rows[*row])) == before;
         let found = self.order.iter().position(same);
         self.chosen = found.unwrap_or(self.chosen.min(self.rows.len().saturating_sub(1)));
     }

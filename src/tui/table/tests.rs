@@ -73,8 +73,10 @@ fn the_chosen_row_stays_chosen() {
     assert_eq!((table.chosen(), table.chosen_row().unwrap()), (0, lean.as_slice()));
     let mut more: Vec<Vec<Cell>> = table.shown().map(<[Cell]>::to_vec).collect();
     more.push(vec![Cell::Text("best".into()), Cell::None, Cell::number(Some(1e-3))]);
+    // What is measured meanwhile makes no other row of it.
+    more[0][2] = Cell::number(Some(2e-3));
     table.set_rows(more);
-    assert_eq!((table.chosen(), table.chosen_row().unwrap()), (1, lean.as_slice()));
+    assert_eq!((table.chosen(), &table.chosen_row().unwrap()[..2]), (1, &lean[..2]));
     table.go(100);
     assert_eq!(table.chosen(), 5);
     table.set_rows(Vec::new());

@@ -70,7 +70,7 @@ fn what_is_told_of_an_earlier_run_is_not_heard() {
 fn another_experiment_waits_for_its_turn() {
     let mut pane = running();
     pane.press(Action::Down, at(1));
-    assert_eq!(orders(&pane.press(Action::Run, at(1))), [&Order::Read { name: "none".into() }; 0]);
+    assert!(orders(&pane.press(Action::Run, at(1))).is_empty());
     assert_eq!(pane.queue, ["sphere"]);
     let asks = pane.hear(Told::Ended(1, done()), at(2));
     assert!(matches!(orders(&asks)[..], [Order::List, Order::Run { number: 2, .. }]));
@@ -78,7 +78,7 @@ fn another_experiment_waits_for_its_turn() {
     // What waits is taken out again.
     pane.press(Action::Up, at(3));
     pane.press(Action::Run, at(3));
-    assert_eq!(orders(&pane.press(Action::Cancel, at(4))), [&Order::List; 0]);
+    assert!(orders(&pane.press(Action::Cancel, at(4))).is_empty());
     assert!(pane.queue.is_empty() && pane.running().unwrap().state == State::Running);
 }
 

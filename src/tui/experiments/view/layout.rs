@@ -35,7 +35,7 @@ impl Layout {
             return Self { chart: Some(chart), table: Some(table), log: Some(log), ..base };
         }
         if rest.height >= 24 {
-            let (chart, below) = rows(rest, (rest.height * 9 / 20).max(12));
+            let (chart, below) = rows(rest, (rest.height / 2).max(12));
             let (table, log) = rows(below, below.height * 3 / 5);
             return Self { chart: Some(chart), table: Some(table), log: Some(log), ..base };
         }

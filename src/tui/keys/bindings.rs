@@ -1,200 +1,8 @@
-//! The keys: one table that dispatches them, hints at them in the footer and explains them on the help page.
+//! The table of keys.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::KeyCode;
 
-/// Where a key means something: what has the focus, from the most special to the most general.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Context {
-    /// A question stands open.
-    Question,
-    /// The page of keys is shown.
-    Help,
-    /// The list of experiments.
-    Experiments,
-    /// The lab, whatever in it has the focus.
-    Lab,
-    /// The lab's settings.
-    Settings,
-    /// The lab's list of methods.
-    Methods,
-    /// The results, whatever in them has the focus.
-    Results,
-    /// The lists of reports, scenes and rows.
-    Reports,
-    /// Pictures that are compared, in the lab or among the results.
-    Picture,
-    /// A picture that has the focus: the arrows move its cursor.
-    Cursor,
-    /// Everywhere but in a question.
-    Everywhere,
-}
-
-impl Context {
-    /// Its heading on the help page.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Question => "Questions",
-            Self::Help => "This page",
-            Self::Experiments => "Experiments",
-            Self::Lab => "Lab",
-            Self::Settings => "Lab: settings",
-            Self::Methods => "Lab: methods",
-            Self::Results => "Results",
-            Self::Reports => "Results: lists",
-            Self::Picture => "Pictures",
-            Self::Cursor => "Pictures: cursor",
-            Self::Everywhere => "Everywhere",
-        }
-    }
-
-    /// All of them, in the order of the help page.
-    pub const ALL: [Self; 11] = [
-        Self::Everywhere,
-        Self::Experiments,
-        Self::Lab,
-        Self::Settings,
-        Self::Methods,
-        Self::Picture,
-        Self::Cursor,
-        Self::Results,
-        Self::Reports,
-        Self::Help,
-        Self::Question,
-    ];
-}
-
-/// A key as it is pressed: a code with Control or without. Shift is part of a character.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Key {
-    code: KeyCode,
-    control: bool,
-}
-
-const fn c(character: char) -> Key {
-    Key { code: KeyCode::Char(character), control: false }
-}
-
-const fn ctrl(character: char) -> Key {
-    Key { code: KeyCode::Char(character), control: true }
-}
-
-const fn k(code: KeyCode) -> Key {
-    Key { code, control: false }
-}
-
-impl From<KeyEvent> for Key {
-    fn from(event: KeyEvent) -> Self {
-        Self { code: event.code, control: event.modifiers.contains(KeyModifiers::CONTROL) }
-    }
-}
-
-#[cfg(test)]
-impl From<Key> for KeyEvent {
-    fn from(key: Key) -> Self {
-        let modifiers = if key.control { KeyModifiers::CONTROL } else { KeyModifiers::NONE };
-        Self::new(key.code, modifiers)
-    }
-}
-
-impl std::fmt::Display for Key {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let name = match self.code {
-            KeyCode::Char(' ') => "Space".to_owned(),
-            KeyCode::Char(character) if self.control => character.to_uppercase().to_string(),
-            KeyCode::Char(character) => character.to_string(),
-            KeyCode::Up => "↑".to_owned(),
-            KeyCode::Down => "↓".to_owned(),
-            KeyCode::Left => "←".to_owned(),
-            KeyCode::Right => "→".to_owned(),
-            KeyCode::BackTab => "Shift-Tab".to_owned(),
-            KeyCode::PageUp => "PgUp".to_owned(),
-            KeyCode::PageDown => "PgDn".to_owned(),
-            other => other.to_string(),
-        };
-        write!(f, "{}{name}", if self.control { "Ctrl-" } else { "" })
-    }
-}
-
-/// What a key does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Action {
-    // Everywhere.
-    Quit,
-    Suspend,
-    Redraw,
-    Help,
-    ToExperiments,
-    ToLab,
-    ToResults,
-    NextFocus,
-    PreviousFocus,
-    Mouse,
-    // Questions and the page of keys.
-    Yes,
-    No,
-    Close,
-    // Lists.
-    Up,
-    Down,
-    PageUp,
-    PageDown,
-    First,
-    Last,
-    Choose,
-    // Experiments.
-    Run,
-    Pause,
-    Cancel,
-    OpenReport,
-    ToLabWith,
-    NextChart,
-    NextScene,
-    PreviousScene,
-    SortNext,
-    SortTurn,
-    // Lab.
-    Less,
-    More,
-    MuchLess,
-    MuchMore,
-    Texture,
-    TextureBack,
-    Surface,
-    SurfaceBack,
-    Farther,
-    Nearer,
-    LightUp,
-    LightDown,
-    LightLeft,
-    LightRight,
-    Wider,
-    Narrower,
-    Lookup,
-    Save,
-    // Pictures.
-    Pick,
-    Flip,
-    Split,
-    SplitLeft,
-    SplitRight,
-    Tone,
-    Values,
-    ZoomIn,
-    ZoomOut,
-    Whole,
-    Brighter,
-    Darker,
-    CursorUp,
-    CursorDown,
-    CursorLeft,
-    CursorRight,
-    // Results.
-    Back,
-    Samples,
-    NextImage,
-    PreviousImage,
-}
+use super::{Action, Context, Key, c, ctrl, k};
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
@@ -221,10 +29,10 @@ const fn bind(
     Binding { context, keys, action, words, hint }
 }
 
-const UP: &[Key] = &[k(KeyCode::Up), c('k')];
-const DOWN: &[Key] = &[k(KeyCode::Down), c('j')];
-const LEFT: &[Key] = &[k(KeyCode::Left), c('h')];
-const RIGHT: &[Key] = &[k(KeyCode::Right), c('l')];
+pub(super) const UP: &[Key] = &[k(KeyCode::Up), c('k')];
+pub(super) const DOWN: &[Key] = &[k(KeyCode::Down), c('j')];
+pub(super) const LEFT: &[Key] = &[k(KeyCode::Left), c('h')];
+pub(super) const RIGHT: &[Key] = &[k(KeyCode::Right), c('l')];
 const DIGITS: &[Key] =
     &[c('0'), c('1'), c('2'), c('3'), c('4'), c('5'), c('6'), c('7'), c('8'), c('9')];
 
@@ -233,11 +41,11 @@ pub const BINDINGS: &[Binding] = {
     use Action as A;
     use Context as C;
     &[
-        bind(C::Question, &[c('y'), k(KeyCode::Enter)], A::Yes, "yes", "yes"),
-        bind(C::Question, &[c('n'), k(KeyCode::Esc), c('q'), ctrl('c')], A::No, "no", "no"),
+        bind(C::Question, &[c('y'), k(KeyCode::Enter), ctrl('c')], A::Yes, "yes", "yes"),
+        bind(C::Question, &[c('n'), k(KeyCode::Esc), c('q')], A::No, "no", "no"),
         bind(
             C::Help,
-            &[k(KeyCode::Esc), c('?'), c('q'), k(KeyCode::Enter)],
+            &[k(KeyCode::Esc), c('?'), c('q'), k(KeyCode::Enter), ctrl('c')],
             A::Close,
             "close",
             "close",
@@ -412,106 +220,3 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Everywhere, &[c('q'), ctrl('c')], A::Quit, "quit", "quit"),
     ]
 };
-
-/// What a key does: its action, and its place among the keys of the binding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pressed {
-    /// The action.
-    pub action: Action,
-    /// Which of the binding's keys it was.
-    pub nth: usize,
-}
-
-/// What `key` does where these contexts hold; the first that binds it decides.
-pub fn find(contexts: &[Context], key: Key) -> Option<Pressed> {
-    contexts.iter().find_map(|context| {
-        let of = BINDINGS.iter().filter(|binding| binding.context == *context);
-        of.filter_map(|binding| {
-            let nth = binding.keys.iter().position(|bound| *bound == key)?;
-            Some(Pressed { action: binding.action, nth })
-        })
-        .next()
-    })
-}
-
-/// The footer's hints where these contexts hold: a key and a word each, the most special first.
-pub fn hints(contexts: &[Context]) -> Vec<(String, &'static str)> {
-    let mut hints = Vec::new();
-    for context in contexts {
-        let of = BINDINGS.iter().filter(|b| b.context == *context && !b.hint.is_empty());
-        let shown = of.filter(|b| find(contexts, b.keys[0]).is_some_and(|p| p.action == b.action));
-        hints.extend(shown.map(|b| (named(b), b.hint)));
-    }
-    hints
-}
-
-/// The keys of a binding, as the footer names them.
-fn named(binding: &Binding) -> String {
-    match binding.action {
-        Action::Pick => "0-9".to_owned(),
-        Action::CursorLeft => "arrows".to_owned(),
-        _ => binding.keys[0].to_string(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_key_means_two_things_in_one_context() {
-        for (i, one) in BINDINGS.iter().enumerate() {
-            for other in &BINDINGS[..i] {
-                let same = one.keys.iter().find(|key| other.keys.contains(key));
-                assert!(
-                    one.context != other.context || same.is_none(),
-                    "{:?}: {same:?} does {:?} and {:?}",
-                    one.context,
-                    one.action,
-                    other.action
-                );
-            }
-        }
-    }
-
-    /// What is shown together shadows nothing of itself.
-    #[test]
-    fn contexts_that_hold_together_do_not_hide_each_other() {
-        for contexts in super::super::model::Model::all_contexts() {
-            for (i, context) in contexts.iter().enumerate() {
-                for binding in BINDINGS.iter().filter(|b| b.context == *context) {
-                    for key in binding.keys {
-                        let hidden = find(&contexts[..i], *key);
-                        assert!(
-                            hidden.is_none(),
-                            "{contexts:?}: {key} of {context:?} is {hidden:?}"
-                        );
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn every_binding_is_found_and_explained() {
-        for binding in BINDINGS {
-            assert!(!binding.words.is_empty());
-            for (nth, key) in binding.keys.iter().enumerate() {
-                let found = find(&[binding.context], *key);
-                assert_eq!(found, Some(Pressed { action: binding.action, nth }), "{key}");
-            }
-            assert!(Context::ALL.contains(&binding.context));
-        }
-    }
-
-    #[test]
-    fn arrows_and_vi_keys_are_one() {
-        for pair in [UP, DOWN, LEFT, RIGHT] {
-            assert!(matches!(
-                pair[0].code,
-                KeyCode::Up | KeyCode::Down | KeyCode::Left | KeyCode::Right
-            ));
-            assert!(matches!(pair[1].code, KeyCode::Char('h' | 'j' | 'k' | 'l')));
-        }
-    }
-}
