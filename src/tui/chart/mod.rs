@@ -107,7 +107,9 @@ impl Chart<'_> {
 
     /// What the chart does not show: a floor far below, points that have no place.
     fn unseen(&self) -> Vec<String> {
-        let below = self.floor.filter(|(level, _)| self.shows((1.0, *level)) && self.seen_floor().is_none());
+        let below = self
+            .floor
+            .filter(|(level, _)| self.shows((1.0, *level)) && self.seen_floor().is_none());
         let floor = below.map(|(level, name)| format!("{name}: {} ↓", phrase::number(level)));
         let points = self.series.iter().flat_map(|series| &series.points);
         let left_out = match points.filter(|point| !self.shows(**point)).count() {
