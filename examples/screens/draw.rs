@@ -112,6 +112,8 @@ fn block(map: &mut Pixmap, at: [f32; 2], c: char, ink: [u8; 3]) -> bool {
             let width = 1.0 - (c as u32 - '▉' as u32 + 1) as f32 / 8.0;
             [0.0, 0.0, width, 1.0]
         }
+        // The font has digits above the line, but no minus there.
+        '⁻' => [0.2, 0.3, 0.6, 0.06],
         '▐' => [0.5, 0.0, 0.5, 1.0],
         '▖' => [0.0, 0.5, 0.5, 0.5],
         '▗' => [0.5, 0.5, 0.5, 0.5],

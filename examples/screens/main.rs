@@ -1,4 +1,4 @@
-//! Pictures of the terminal runner's screens for docs/: `cargo build && cargo run --example screens`.
+//! Pictures of the terminal runner's screens for docs/: `cargo build --release && cargo run --release --example screens`.
 //!
 //! Each screen is the real program's: it runs on a terminal of ours, gets keys, and what it draws there becomes a PNG.
 //! Arguments are the names of the screens to make; all if there are none.
@@ -18,11 +18,9 @@ enum Step {
     Type(&'static str),
     /// A text is waited for.
     For(&'static str),
-    /// A text is waited for to go.
-    Without(&'static str),
 }
 
-use Step::{For, Type, Without};
+use Step::{For, Type};
 
 /// A screen: its name, columns and rows, arguments after `wrinkle tui`, and the way there.
 struct Shot {
@@ -32,19 +30,29 @@ struct Shot {
     steps: &'static [Step],
 }
 
-const ESCAPE: &str = "\x1b";
 const SHOTS: &[Shot] = &[
+    Shot {
+        name: "experiments",
+        size: [120, 36],
+        args: &["quick"],
+        steps: &[For("RMSE"), For("fournier")],
+    },
     Shot {
         name: "lab",
         size: [120, 36],
         args: &["data/denim.png"],
-        steps: &[For("reference:"), Without("converging"), Type("s"), For("│B"), Type("\t\t\t")],
+        steps: &[
+            For("reference:"),
+            For("olano-north"),
+            Type("6s"),
+            For("A olano-north │ B reference"),
+        ],
     },
     Shot {
         name: "lab-error",
         size: [120, 36],
         args: &["data/denim.png"],
-        steps: &[For("reference:"), Without("converging"), Type("e"), For("|error|")],
+        steps: &[For("reference:"), Type("6e"), For("A olano-north  |error|")],
     },
     Shot {
         name: "results",
@@ -61,19 +69,6 @@ const SHOTS: &[Shot] = &[
             Type("\r"),
         ],
     },
-    Shot {
-        name: "help",
-        size: [100, 36],
-        args: &[],
-        steps: &[
-            Type("?"),
-            For("Keys: "),
-            Type(ESCAPE),
-            Without("Keys: "),
-            Type("?"),
-            For("Keys: "),
-        ],
-    },
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -81,7 +76,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let own = std::env::current_exe()?;
     let program = own.parent().and_then(Path::parent).ok_or("no target folder")?.join("wrinkle");
     if !program.exists() {
-        return Err("build the program first: cargo build".into());
+        return Err("build the program first: cargo build, with the same profile".into());
     }
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     for shot in SHOTS.iter().filter(|s| wanted.is_empty() || wanted.iter().any(|w| w == s.name)) {
@@ -93,10 +88,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             match step {
                 Type(keys) => pty.send(keys),
                 For(text) => pty.wait_for(text),
-                Without(text) => pty.wait_without(text),
             }
         }
-        pty.settle(Duration::from_secs(1));
+        pty.settle(Duration::from_millis(600));
         let path = root.join(format!("docs/images/tui-{}.png", shot.name));
         std::fs::write(&path, draw::draw(&pty.screen()).encode_png()?)?;
         println!("{}", path.display());
