@@ -221,6 +221,8 @@ impl Experiments {
         let elsewhere: Vec<Listed> = self.elsewhere.iter().filter(new).cloned().collect();
         list.extend(elsewhere);
         let place = list.iter().position(|one| Some(&one.name) == chosen.as_ref());
+        let usual = || list.iter().position(|one| one.name == job::DEFAULT);
+        let place = if chosen.is_none() { usual() } else { place };
         self.chosen = place.unwrap_or(self.chosen.min(list.len().saturating_sub(1)));
         let empty = list.is_empty();
         (self.list, self.reports) = (Some(list), reports);
