@@ -42,7 +42,8 @@ pub struct Bench {
     /// The maps that are built, one a method.
     pub maps: Vec<Option<Arc<dyn Prefiltered>>>,
     methods: Vec<Box<dyn Method>>,
-    refused: Vec<bool>,
+    /// Why methods take no part, of those that do not.
+    refused: Vec<Option<String>>,
     films: Vec<Option<Arc<Film>>>,
     replicates: Vec<Film>,
     reference: Option<Converged>,
@@ -67,7 +68,7 @@ impl Bench {
             staged: Arc::new(staged),
             maps: vec![None; count],
             methods,
-            refused: vec![false; count],
+            refused: vec![None; count],
             films: vec![None; count],
             replicates: Vec::new(),
             reference: None,
@@ -79,7 +80,7 @@ impl Bench {
     /// converges in between.
     pub fn next(&self) -> Option<Step> {
         let [first, fair, last] = REPLICATES;
-        let missing = |m: &usize| !self.refused[*m] && self.films[*m].is_none();
+        let missing = |m: &usize| self.refused[*m].is_none() && self.films[*m].is_none();
         let slow = |m: &usize| self.methods[*m].prefilter_work() > SLOW && self.maps[*m].is_none();
         let all = || (0..self.methods.len()).filter(missing);
         if self.replicates.len() < first {
@@ -102,107 +103,96 @@ impl Bench {
         (self.replicates.len() < last).then_some(Step::Replicate)
     }
 
-    /// Does a step, and tells what it gave. Stops early if `cancelled` says so, and then has done nothing.
-    pub fn work(
-        &mut self,
-        step: Step,
-        shelf: &mut Shelf,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        tell: &(dyn Fn(Finding) + Sync),
-    ) {
+    /// Does a step; what it gave. Stops early if `cancelled` says so, and then has done nothing. A long one tells how
+    /// far it is as it goes.
+    pub fn work(&mut self, step: Step, shelf: &mut Shelf, watch: &Watch) -> Vec<Finding> {
         match step {
-            Step::Replicate => self.replicate(cancelled, tell),
-            Step::Image(method) => self.image(method, shelf, cancelled, tell),
-            Step::Curve(spp) => self.extend_curve(spp, cancelled, tell),
+            Step::Replicate => self.replicate(watch),
+            Step::Image(method) => self.image(method, shelf, watch),
+            Step::Curve(spp) => self.extend_curve(spp, watch),
         }
     }
 
-    fn replicate(
-        &mut self,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        tell: &(dyn Fn(Finding) + Sync),
-    ) {
+    fn replicate(&mut self, watch: &Watch) -> Vec<Finding> {
         let (staged, spec) = (&self.staged, &self.wanted.spec);
         let truth = (spec.reference.truth, &staged.map, &staged.material.base);
         let sampler = PixelSampler::new(REPLICATE);
         // Replicate 0 is the methods' own.
         let number = 1 + self.replicates.len() as u32;
-        let film = reference_replicate(&staged.view, truth, &sampler, spec.seed, number, cancelled);
-        let Ok(film) = film else { return };
+        let (view, cancelled) = (&staged.view, watch.cancelled);
+        let film = reference_replicate(view, truth, &sampler, spec.seed, number, cancelled);
+        let Ok(film) = film else { return Vec::new() };
         self.replicates.push(film);
         let count = self.replicates.len();
         if !count.is_power_of_two() || count < 2 {
-            return;
+            return Vec::new();
         }
         let converged = average(&self.replicates, REPLICATE * count as u32);
-        tell(Finding::Reference {
-            film: Arc::new(converged.film.clone()),
-            spp: converged.spp,
-            rmse: converged.rmse,
-        });
+        let (film, spp, rmse) = (Arc::new(converged.film.clone()), converged.spp, converged.rmse);
         self.reference = Some(converged);
-        tell(Finding::Scores(self.scores()));
+        vec![Finding::Reference { film, spp, rmse }, Finding::Scores(self.scores())]
     }
 
-    fn image(
-        &mut self,
-        method: usize,
-        shelf: &mut Shelf,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        tell: &(dyn Fn(Finding) + Sync),
-    ) {
-        let Some(map) = self.map(method, shelf, cancelled, tell) else { return };
-        let start = Instant::now();
-        let Some(film) = self.render(method, map.as_ref(), self.wanted.spp, cancelled) else {
-            return;
+    fn image(&mut self, method: usize, shelf: &mut Shelf, watch: &Watch) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        let map = match self.map(method, shelf, watch) {
+            Some((map, built)) => {
+                findings.push(built);
+                map
+            }
+            None if self.refused[method].is_some() => {
+                let reason = self.refused[method].clone().unwrap_or_default();
+                return vec![Finding::Refused { method, reason }];
+            }
+            None => return findings,
         };
-        let secs = start.elapsed().as_secs_f64() * rayon::current_num_threads() as f64;
-        let pixels = film.pixels().len() as f64;
-        let film = Arc::new(film);
-        self.films[method] = Some(Arc::clone(&film));
-        tell(Finding::Image { method, film, ns_per_pixel: secs * 1e9 / pixels });
-        tell(Finding::Scores(self.scores()));
+        let start = Instant::now();
+        let film = self.render(method, map.as_ref(), self.wanted.spp, watch);
+        if let Some(film) = film {
+            let secs = start.elapsed().as_secs_f64() * rayon::current_num_threads() as f64;
+            let ns_per_pixel = secs * 1e9 / film.pixels().len() as f64;
+            let film = Arc::new(film);
+            self.films[method] = Some(Arc::clone(&film));
+            findings.push(Finding::Image { method, film, ns_per_pixel });
+            findings.push(Finding::Scores(self.scores()));
+        }
+        findings
     }
 
-    /// A method's map: the one there is, the one of an earlier scene, or one built now.
+    /// A method's map, the one there is, the one of an earlier scene, or one built now, and what it took. None if the
+    /// method refuses, which is kept, or if the work is cancelled.
     fn map(
         &mut self,
         method: usize,
         shelf: &mut Shelf,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        tell: &(dyn Fn(Finding) + Sync),
-    ) -> Option<Arc<dyn Prefiltered>> {
-        if let Some(map) = &self.maps[method] {
-            return Some(Arc::clone(map));
-        }
-        let key = self.key(method);
+        watch: &Watch,
+    ) -> Option<(Arc<dyn Prefiltered>, Finding)> {
         let texels = (self.staged.map.width() * self.staged.map.height()) as f64;
-        let built = |map: &Arc<dyn Prefiltered>, secs: f64| Finding::Built {
-            method,
-            secs,
-            bytes_per_texel: map.bytes() as f64 / texels,
+        let built = |map: Arc<dyn Prefiltered>, secs: f64| {
+            let bytes_per_texel = map.bytes() as f64 / texels;
+            (map, Finding::Built { method, secs, bytes_per_texel })
         };
-        if let Some((_, map)) = shelf.iter().find(|(kept, _)| *kept == key) {
-            tell(built(map, 0.0));
-            return Some(Arc::clone(self.maps[method].insert(Arc::clone(map))));
+        let key = self.key(method);
+        let kept = || shelf.iter().find(|(kept, _)| *kept == key).map(|(_, map)| Arc::clone(map));
+        if let Some(map) = self.maps[method].clone().or_else(kept) {
+            self.maps[method] = Some(Arc::clone(&map));
+            return Some(built(map, 0.0));
         }
-        let label = &self.wanted.spec.sweep.methods[method].label;
-        let progress = Telling { label, cancelled, tell };
+        let progress = Telling { label: &self.wanted.spec.sweep.methods[method].label, watch };
         let start = Instant::now();
         let base = &self.staged.material.base;
         match self.methods[method].prefilter(&self.staged.map, base, &progress) {
             Ok(map) => {
                 let map: Arc<dyn Prefiltered> = map.into();
-                tell(built(&map, start.elapsed().as_secs_f64()));
                 shelf.push_back((key, Arc::clone(&map)));
                 if shelf.len() > KEPT {
                     shelf.pop_front();
                 }
-                Some(Arc::clone(self.maps[method].insert(map)))
+                self.maps[method] = Some(Arc::clone(&map));
+                Some(built(map, start.elapsed().as_secs_f64()))
             }
             Err(PrefilterError::Refused(reason)) => {
-                self.refused[method] = true;
-                tell(Finding::Refused { method, reason: reason.to_string() });
+                self.refused[method] = Some(reason.to_string());
                 None
             }
             Err(PrefilterError::Cancelled) => None,
@@ -222,34 +212,28 @@ impl Bench {
         method: usize,
         map: &dyn Prefiltered,
         spp: u32,
-        cancelled: &(dyn Fn() -> bool + Sync),
+        watch: &Watch,
     ) -> Option<Film> {
         let lookup = self.wanted.spec.sweep.methods[method].lookup;
         let view = crate::render::View { lookup, ..self.staged.view.clone() };
         let card = self.methods[method].card();
         let filtered = Filtered { map: &self.staged.map, card, prefiltered: map };
         let sampler = PixelSampler::new(spp);
-        trial(&view, &filtered, &sampler, self.wanted.spec.seed, 0, cancelled).ok()
+        trial(&view, &filtered, &sampler, self.wanted.spec.seed, 0, watch.cancelled).ok()
     }
 
-    fn extend_curve(
-        &mut self,
-        spp: u32,
-        cancelled: &(dyn Fn() -> bool + Sync),
-        tell: &(dyn Fn(Finding) + Sync),
-    ) {
-        let unfiltered =
-            self.brute_force().and_then(|m| Some((m, Arc::clone(self.maps[m].as_ref()?))));
-        let film = match unfiltered {
-            Some((method, map)) => match self.render(method, map.as_ref(), spp, cancelled) {
+    fn extend_curve(&mut self, spp: u32, watch: &Watch) -> Vec<Finding> {
+        let map = self.brute_force().and_then(|m| Some((m, self.maps[m].clone()?)));
+        let film = match map {
+            Some((method, map)) => match self.render(method, map.as_ref(), spp, watch) {
                 Some(film) => film,
-                None => return,
+                None => return Vec::new(),
             },
             // No such method in this spec: a curve without this point.
             None => Film::new(0, 0, Vec::new()),
         };
         self.curve.push((spp, film));
-        tell(Finding::Scores(self.scores()));
+        vec![Finding::Scores(self.scores())]
     }
 
     /// The place of the method without a filter.
@@ -282,28 +266,33 @@ impl Bench {
     }
 }
 
+/// Who watches over the work.
+pub struct Watch<'a> {
+    /// Whether to stop.
+    pub cancelled: &'a (dyn Fn() -> bool + Sync),
+    /// Hears how far a long step is.
+    pub tell: &'a (dyn Fn(Finding) + Sync),
+}
+
 /// Tells how far a prefilter is.
 struct Telling<'a> {
     label: &'a str,
-    cancelled: &'a (dyn Fn() -> bool + Sync),
-    tell: &'a (dyn Fn(Finding) + Sync),
+    watch: &'a Watch<'a>,
 }
 
 impl Progress for Telling<'_> {
     fn advance(&self, done: usize, total: usize) {
         let part = done as f64 / total.max(1) as f64;
-        (self.tell)(Finding::Working(format!("prefiltering for {}", self.label), part));
+        (self.watch.tell)(Finding::Working(format!("prefiltering for {}", self.label), part));
     }
 
     fn cancelled(&self) -> bool {
-        (self.cancelled)()
+        (self.watch.cancelled)()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Mutex;
-
     use super::super::setup::Setup;
     use super::*;
 
@@ -330,12 +319,13 @@ mod tests {
     }
 
     fn work(bench: &mut Bench, shelf: &mut Shelf, steps: usize) -> Vec<Finding> {
-        let told = Mutex::new(Vec::new());
+        let watch = Watch { cancelled: &|| false, tell: &|_| () };
+        let mut told = Vec::new();
         for _ in 0..steps {
             let Some(step) = bench.next() else { break };
-            bench.work(step, shelf, &|| false, &|finding| told.lock().unwrap().push(finding));
+            told.extend(bench.work(step, shelf, &watch));
         }
-        told.into_inner().unwrap()
+        told
     }
 
     #[test]
@@ -385,7 +375,8 @@ mod tests {
     #[test]
     fn what_is_cancelled_was_not_done() {
         let mut bench = bench();
-        bench.work(Step::Replicate, &mut Shelf::new(), &|| true, &|_| panic!("told something"));
+        let watch = Watch { cancelled: &|| true, tell: &|_| panic!("told something") };
+        assert!(bench.work(Step::Replicate, &mut Shelf::new(), &watch).is_empty());
         assert_eq!(bench.next(), Some(Step::Replicate));
         assert!(bench.replicates.is_empty());
     }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::bench::{Bench, Shelf};
+use super::bench::{Bench, Shelf, Watch};
 use super::setup::Setup;
 use super::told::{Finding, Held, Look, Order, Told, Under, Wanted};
 use crate::experiment::preview::Stock;
@@ -128,20 +128,20 @@ fn finish(bench: &mut Bench, shelf: &mut Shelf, desk: &Desk, order: u64, tell: &
     let scene = bench.wanted.scene;
     let cancelled = || desk.orders.load(Ordering::Relaxed) != order;
     let last = Mutex::new(None::<Instant>);
-    let told = |finding: Finding| {
-        if let Finding::Working(..) = finding {
-            let mut last = lock(&last);
-            if last.is_some_and(|last| last.elapsed() < EVERY) {
-                return;
-            }
+    let now_and_then = |finding: Finding| {
+        let mut last = lock(&last);
+        if last.is_none_or(|last| last.elapsed() >= EVERY) {
             *last = Some(Instant::now());
+            tell(Told::Of(scene, finding));
         }
-        tell(Told::Of(scene, finding));
     };
+    let watch = Watch { cancelled: &cancelled, tell: &now_and_then };
     show(bench, desk);
     while let Some(step) = bench.next() {
-        bench.work(step, shelf, &cancelled, &told);
+        let findings = bench.work(step, shelf, &watch);
+        // Set out before it is told: whoever hears of a map may look into it.
         show(bench, desk);
+        findings.into_iter().for_each(|finding| tell(Told::Of(scene, finding)));
         if cancelled() {
             return;
         }
