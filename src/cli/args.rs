@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ArgGroup, Parser, Subcommand};
 
+use crate::job;
 use crate::tui::picture::{Colours, Pictures};
 
 /// wrinkle's arguments.
@@ -59,7 +60,7 @@ pub enum Command {
 Results are kept as they come. Interrupt with Ctrl-C; the same command goes on where it stopped.")]
 pub struct RunArgs {
     /// Experiments: names of files in experiments/ without `.toml`, or paths of such files.
-    #[arg(value_name = "NAME|FILE", default_value = "highlight")]
+    #[arg(value_name = "NAME|FILE", default_value = job::DEFAULT)]
     pub experiments: Vec<String>,
     /// Folder that reports go to, one folder an experiment.
     #[arg(long, value_name = "DIR", default_value = "reports")]

@@ -7,7 +7,8 @@ use super::spec::{LightSpec, Scale, Spec, SurfaceSpec, TextureSpec, no_such};
 use crate::method::{Method, Progress};
 use crate::render::{self, Film, Filtered, PixelSampler};
 use crate::scene::{
-    Current, Failure, Halt, LightSource, Map, SceneOf, StagedScene, Stagehand, SurfaceShape, stage,
+    Current, Failure, Halt, LightSource, Map, ProbePlan, ReferencePlan, SceneOf, StagedScene,
+    Stagehand, SurfaceShape, stage,
 };
 
 /// Which image of an experiment.
@@ -59,7 +60,8 @@ impl Stock {
         lend(&self.texture, &texture, &mut hand.world, of.texture);
         lend(&self.surface, &one.surface, &mut hand.world, of.surface);
         lend(&self.light, &one.light, &mut hand.world, of.light);
-        // With no method in the sweep, a tick loads texture and light; the rest is for others to do.
+        // With no method in the sweep, and neither reference nor probes, a tick loads what is missing and no more.
+        hand.world.entity_mut(scene.entity).remove::<(ReferencePlan, ProbePlan)>();
         hand.tick();
         if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
             return Err(NoImage(error.to_string()));

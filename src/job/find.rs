@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use crate::evidence;
 use crate::experiment::spec::{Experiment, Spec, SpecErrors, no_such};
 
+/// The experiment that is meant where none is named.
+pub const DEFAULT: &str = "highlight";
+
 /// Where experiments are looked for by name, from the working folder.
 pub const FOLDER: &str = "experiments";
 

@@ -10,7 +10,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 pub use control::{Control, Gate};
-pub use find::{FOLDER, FindError, is_image, load, load_sweep, locate, names, names_in};
+pub use find::{DEFAULT, FOLDER, FindError, is_image, load, load_sweep, locate, names, names_in};
 
 use crate::evidence::{Evidence, Findings, Gathered, gather};
 use crate::experiment::lock::{Lock, LockError};

@@ -90,6 +90,7 @@ fn below(chart: &Chart, area: Rect, several: bool, buffer: &mut Buffer) {
             (column, row) = (area.x, row + 1);
         }
         if row >= area.bottom() {
+            buffer.set_string(area.right() - 1, area.bottom() - 1, "…", dim());
             return;
         }
         name(chart, place, (column, row), wide, buffer);

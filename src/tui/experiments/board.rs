@@ -1,6 +1,6 @@
 //! The figures of an experiment, as they come in from a run or from its report.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::experiment::runner::RunEvent;
 use crate::tui::library::Row;
@@ -177,19 +177,42 @@ impl Board {
         self.places[1].get(&in_part(part, slug)).copied()
     }
 
-    /// The scenes that every method with any trial took part in, or all if there are none: those that means are over.
-    pub fn full_scenes(&self) -> Vec<&Scene> {
-        let parts = |scene: &Scene| {
-            let methods = scene.trials.keys().map(|(method, _)| *method);
-            methods.collect::<std::collections::BTreeSet<usize>>()
+    /// The parts that scenes are of, in the order they came; none of a single sweep.
+    pub fn parts(&self) -> Vec<&str> {
+        let mut parts: Vec<&str> = Vec::new();
+        for scene in &self.scenes {
+            if let Some((part, _)) = scene.slug.split_once('/')
+                && !parts.contains(&part)
+            {
+                parts.push(part);
+            }
+        }
+        parts
+    }
+
+    /// The scenes of a part, or all of a single sweep.
+    pub fn scenes_of(&self, part: Option<&str>) -> Vec<&Scene> {
+        self.scenes
+            .iter()
+            .filter(|scene| part.is_none_or(|part| is_of(&scene.slug, part)))
+            .collect()
+    }
+
+    /// The sequences of a part, or all of a single sweep.
+    pub fn sequences_of(&self, part: Option<&str>) -> Vec<&Sequence> {
+        self.sequences.iter().filter(|s| part.is_none_or(|part| is_of(&s.slug, part))).collect()
+    }
+
+    /// Of these scenes, those that every method with any trial took part in, or all with trials if there are
+    /// none: those that means are over.
+    pub fn full<'a>(scenes: &[&'a Scene]) -> Vec<&'a Scene> {
+        let methods = |scene: &Scene| -> BTreeSet<usize> {
+            scene.trials.keys().map(|(method, _)| *method).collect()
         };
-        let each: Vec<_> = self.scenes.iter().map(|scene| (scene, parts(scene))).collect();
-        let most = each.iter().map(|(_, parts)| parts.len()).max().unwrap_or(0);
-        let all: std::collections::BTreeSet<usize> =
-            each.iter().flat_map(|(_, parts)| parts.iter().copied()).collect();
-        let full = each.iter().filter(|(_, parts)| most > 0 && parts.len() == all.len());
-        let full: Vec<&Scene> = full.map(|(scene, _)| *scene).collect();
-        if full.is_empty() { self.scenes.iter().collect() } else { full }
+        let all: BTreeSet<usize> = scenes.iter().flat_map(|scene| methods(scene)).collect();
+        let measured = scenes.iter().copied().filter(|scene| !scene.trials.is_empty());
+        let full: Vec<&Scene> = measured.clone().filter(|scene| methods(scene) == all).collect();
+        if full.is_empty() { measured.collect() } else { full }
     }
 
     /// The sequence that a scene is a frame of.
@@ -208,6 +231,11 @@ const REFERENCE: &str = "reference";
 /// A slug after its part's name.
 fn in_part(part: Option<&str>, slug: &str) -> String {
     part.map_or_else(|| slug.to_owned(), |part| format!("{part}/{slug}"))
+}
+
+/// Whether a slug is of a part.
+fn is_of(slug: &str, part: &str) -> bool {
+    slug.strip_prefix(part).is_some_and(|rest| rest.starts_with('/'))
 }
 
 /// The geometric mean of values above zero; `None` if there are none or one is not.
@@ -278,7 +306,8 @@ mod tests {
         board.take(Some("p"), &scored("one", "a", 1, 1.0));
         board.take(Some("p"), &scored("one", "b", 1, 1.0));
         board.take(Some("p"), &scored("two", "a", 1, 1.0));
-        let full: Vec<_> = board.full_scenes().iter().map(|s| s.slug.as_str()).collect();
+        let full: Vec<_> =
+            Board::full(&board.scenes_of(Some("p"))).iter().map(|s| s.slug.as_str()).collect();
         assert_eq!(full, ["p/one"]);
         assert_eq!(board.place_of(Some("p"), "two"), Some(1));
         assert_eq!(geometric_mean([1.0, 4.0].into_iter()), Some(2.0));

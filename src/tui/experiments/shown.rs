@@ -47,8 +47,10 @@ pub enum Which {
     /// The one that a run works at; all, if none does.
     #[default]
     Current,
-    /// Means over all that every method took part in.
+    /// Means over all that every method took part in; of a paper's sweeps, over those of the first.
     All,
+    /// Means over those of this part of a paper's sweeps.
+    Part(String),
     /// The one of this slug.
     One(String),
 }
@@ -85,24 +87,30 @@ impl<'a> Choice<'a> {
                 (board.scenes.iter().rfind(measured), "the scene under way")
             }
             Which::One(slug) => (board.scenes.iter().find(|scene| scene.slug == *slug), ""),
+            Which::Part(part) => return Self::all(board, Some(part)),
             Which::Current | Which::All => (None, ""),
         };
-        let Some(scene) = one else { return Self::all(board) };
+        let Some(scene) = one else { return Self::all(board, board.parts().first().copied()) };
         let words =
             if words.is_empty() { scene.slug.clone() } else { format!("{words}: {}", scene.slug) };
         let sequences = board.sequence_of(scene).into_iter().collect();
         Self { scenes: vec![scene], sequences, words }
     }
 
-    fn all(board: &'a Board) -> Self {
-        let (scenes, all) = (board.full_scenes(), board.scenes.len());
+    fn all(board: &'a Board, part: Option<&str>) -> Self {
+        let of_part = board.scenes_of(part);
+        let (scenes, all) = (Board::full(&of_part), of_part.len());
         let words = match scenes.len() {
             0 => String::new(),
             1 if all == 1 => scenes[0].slug.clone(),
             shown if shown == all => format!("mean over all {all} scenes"),
             shown => format!("mean over {shown} of {all} scenes, where all methods take part"),
         };
-        Self { scenes, sequences: board.sequences.iter().collect(), words }
+        let words = match part {
+            Some(part) if all > 1 => format!("{part}: {words}"),
+            _ => words,
+        };
+        Self { scenes, sequences: board.sequences_of(part), words }
     }
 
     /// The methods and sample counts there are trials of.
@@ -280,6 +288,23 @@ mod tests {
         let normals = shown(&board, Plot::Normals, &one, false);
         assert_eq!((normals.bars.len(), normals.bars[0].value, normals.series.len()), (1, 0.5, 0));
         assert!(Plot::ALL.iter().all(|plot| plot.next() != *plot));
+    }
+
+    #[test]
+    fn a_papers_sweeps_are_shown_one_at_a_time() {
+        let mut board = Board::default();
+        for (part, scene, method) in
+            [("one", "a", "lean"), ("one", "b", "lean"), ("two", "a", "fournier")]
+        {
+            let (scene, method) = (scene.to_owned(), method.to_owned());
+            let row = Row { scene, method, spp: Some(1), metric: "rmse".into(), value: 1.0 };
+            board.add_rows(Some(part), &[], &[row]);
+        }
+        assert_eq!(board.parts(), ["one", "two"]);
+        let first = shown(&board, Plot::Error, &Which::All, false);
+        assert_eq!((first.of.as_str(), first.rows.len()), ("one: mean over all 2 scenes", 1));
+        let second = shown(&board, Plot::Error, &Which::Part("two".into()), false);
+        assert_eq!((second.of.as_str(), second.series[0].name.as_str()), ("two/a", "fournier"));
     }
 
     #[test]

@@ -176,7 +176,11 @@ impl Experiments {
     fn turn_scene(&mut self, steps: isize) {
         let Some(board) = self.board() else { return };
         let mut all = if self.is_chosen_running() { vec![Which::Current] } else { Vec::new() };
-        all.push(Which::All);
+        let parts = board.parts();
+        if parts.is_empty() {
+            all.push(Which::All);
+        }
+        all.extend(parts.into_iter().map(|part| Which::Part(part.to_owned())));
         all.extend(board.scenes.iter().map(|scene| Which::One(scene.slug.clone())));
         let place = all.iter().position(|which| *which == self.which).unwrap_or(0) as isize;
         let next = (place + steps).rem_euclid(all.len() as isize) as usize;
@@ -217,6 +221,8 @@ impl Experiments {
         let elsewhere: Vec<Listed> = self.elsewhere.iter().filter(new).cloned().collect();
         list.extend(elsewhere);
         let place = list.iter().position(|one| Some(&one.name) == chosen.as_ref());
+        let usual = || list.iter().position(|one| one.name == job::DEFAULT);
+        let place = if chosen.is_none() { usual() } else { place };
         self.chosen = place.unwrap_or(self.chosen.min(list.len().saturating_sub(1)));
         let empty = list.is_empty();
         (self.list, self.reports) = (Some(list), reports);

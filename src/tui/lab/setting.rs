@@ -161,13 +161,8 @@ impl Setting {
             }
             Self::LightAzimuth => {
                 let to = stepped(self.angle(spec), 10.0, steps);
-                let to = if to > 180.0 {
-                    to - 360.0
-                } else if to < -180.0 {
-                    to + 360.0
-                } else {
-                    to
-                };
+                // In (−180, 180].
+                let to = 180.0 - (180.0 - to).rem_euclid(360.0);
                 let key = if spec.light.is_environment() { "rotation" } else { "azimuth" };
                 setup.set("light", key, to);
             }

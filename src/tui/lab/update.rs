@@ -4,14 +4,13 @@ use ratatui::layout::Position;
 
 use super::view::Layout;
 use super::{By, Finding, Focus, Lab, Look, Order, Row, Setting, Setup, Told, Wanted};
+use crate::job;
 use crate::method;
 use crate::tui::keys::{Action, Pressed};
 use crate::tui::message::Effect;
 use crate::tui::model::Model;
 use crate::tui::viewer::{self, Shot};
 
-/// The experiment that an empty lab opens.
-const FIRST: &str = "highlight";
 /// Steps of the keys that change much.
 const MUCH: i32 = 4;
 
@@ -24,7 +23,7 @@ pub fn open(model: &mut Model, name: &str) -> Vec<Effect> {
 /// The lab is shown: goes on rendering, or opens what to begin with.
 pub fn enter(model: &mut Model) -> Vec<Effect> {
     match &model.lab.setup {
-        None if model.lab.opening.is_none() => open(model, FIRST),
+        None if model.lab.opening.is_none() => open(model, job::DEFAULT),
         None => Vec::new(),
         Some(_) if model.lab.done => Vec::new(),
         Some(_) => show(&model.lab),

@@ -27,7 +27,7 @@ use crate::tui::view::{panel, share};
 use crate::tui::viewer::{Side, values};
 
 /// Columns of the panels on the right, where there is room for more than the least.
-const RIGHT: [u16; 2] = [34, 64];
+const RIGHT: [u16; 2] = [38, 64];
 /// Columns of the list of methods from which on it has times.
 const TIMED: u16 = 42;
 /// The lab's pictures.
@@ -219,9 +219,9 @@ fn methods(model: &Model, area: Rect, frame: &mut Frame) {
         let row = &lab.rows[method];
         let key = if method < 9 { (method + 1).to_string() } else { " ".to_owned() };
         let text = format!(
-            "{key} {} {:name$.name$} {}",
+            "{key} {} {:name$} {}",
             sides(lab, method + 1),
-            row.label,
+            short(&row.label, name),
             numbers(row, timed)
         );
         let mut style = Style::new();
@@ -234,6 +234,17 @@ fn methods(model: &Model, area: Rect, frame: &mut Frame) {
         lines.extend([Side::A, Side::B].iter().filter_map(|side| costs(lab, *side)).map(Line::raw));
     }
     frame.render_widget(Paragraph::new(lines), area);
+}
+
+/// A label that fits: of one that is too long its beginning, which tells the method, and the last three letters, which
+/// tell its form.
+fn short(label: &str, room: usize) -> String {
+    let letters: Vec<char> = label.chars().collect();
+    if letters.len() <= room || room < 5 {
+        return letters.into_iter().take(room).collect();
+    }
+    let (front, back) = (&letters[..room - 4], &letters[letters.len() - 3..]);
+    front.iter().chain(&['…']).chain(back).collect()
 }
 
 /// What the method on a side costs.

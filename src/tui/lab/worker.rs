@@ -244,3 +244,102 @@ fn save(text: &str, folder: &Path) -> Result<PathBuf, String> {
     write_whole(&path, text.as_bytes()).map_err(|error| cannot(&path, error))?;
     Ok(path)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::{Receiver, RecvTimeoutError};
+
+    use super::*;
+
+    /// Generous: a busy machine is no failure.
+    const DEADLINE: Duration = Duration::from_secs(300);
+
+    fn wanted(scene: u64, texels: f64) -> Wanted {
+        let mut setup = super::super::setup::tests::setup();
+        setup.set("image", "width", 32);
+        setup.set("image", "height", 24);
+        let list = toml::Value::Array(vec![texels.into()]);
+        setup.set("sweep", "texels_per_pixel", list);
+        Wanted { scene, spec: setup.spec().unwrap(), spp: 1, first: vec![0] }
+    }
+
+    fn start() -> (Worker, Receiver<Told>) {
+        let (sender, told) = mpsc::channel();
+        let sender = Mutex::new(sender);
+        let worker = Worker::start(Arc::new(move |told| drop(lock(&sender).send(told))));
+        (worker, told)
+    }
+
+    /// What is told of a scene until it is done.
+    fn until_done(told: &Receiver<Told>, scene: u64) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        loop {
+            match told.recv_timeout(DEADLINE) {
+                Ok(Told::Of(of, Finding::Done)) if of == scene => return findings,
+                Ok(Told::Of(of, finding)) if of == scene => findings.push(finding),
+                Ok(_) => {}
+                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {
+                    panic!("scene {scene} was never done: {} findings", findings.len())
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn one_scene_after_the_other_is_done() {
+        let (worker, told) = start();
+        for scene in 1..4 {
+            worker.order(Order::Show(Box::new(wanted(scene, scene as f64))));
+            assert!(!until_done(&told, scene).is_empty());
+        }
+    }
+
+    #[test]
+    fn the_last_of_many_orders_is_done() {
+        let (worker, told) = start();
+        for scene in 1..20 {
+            worker.order(Order::Show(Box::new(wanted(scene, 1.0 + scene as f64))));
+        }
+        until_done(&told, 19);
+        worker.order(Order::Rest);
+        worker.order(Order::Show(Box::new(wanted(20, 3.0))));
+        until_done(&told, 20);
+    }
+
+    #[test]
+    fn what_lies_under_a_pixel_is_told_of_the_scene_shown() {
+        let (worker, told) = start();
+        worker.order(Order::Show(Box::new(wanted(1, 4.0))));
+        until_done(&told, 1);
+        worker.order(Order::Probe(Look { scene: 1, pixel: [16, 12], methods: vec![0, 8] }));
+        let under = loop {
+            match told.recv_timeout(DEADLINE).expect("an answer") {
+                Told::Of(1, Finding::Under(under)) => break under,
+                _ => {}
+            }
+        };
+        assert_eq!((under.truth.len(), under.methods.len()), (1297, 2));
+        assert!(under.methods.iter().all(|held| held.axes.len() == 1));
+    }
+
+    #[test]
+    fn what_is_not_there_is_told_in_a_sentence() {
+        for (name, told) in [
+            ("gone.png", "there is no file"),
+            ("no-such-experiment.toml", "there is no experiment file"),
+        ] {
+            let error = open(name).unwrap_err();
+            assert!(error.contains(told), "{error}");
+        }
+    }
+
+    #[test]
+    fn what_is_saved_gets_a_name_of_its_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = super::super::setup::tests::setup().experiment();
+        let one = save(&text, folder.path()).unwrap();
+        let two = save(&text, folder.path()).unwrap();
+        assert!(one.ends_with("lab-1.toml") && two.ends_with("lab-2.toml"));
+        assert!(crate::experiment::spec::Spec::load(&two).is_ok());
+    }
+}

@@ -31,7 +31,8 @@ pub struct Listed {
     pub kind: Option<Kind>,
     /// How much there is to it, such as `8 scenes, 11 methods, 208 trials`; empty where the file is wrong.
     pub size: String,
-    /// The labels of a sweep's methods with the names of the methods they are forms of, in the order of the spec.
+    /// The labels of its methods with the names of the methods they are forms of, in the order of the spec; of a
+    /// paper, those of all its sweeps.
     pub methods: Vec<(String, String)>,
     /// What is wrong with its file: the first line of what a run of it would say.
     pub problem: Option<String>,
@@ -66,7 +67,14 @@ pub fn listed(path: &Path) -> Listed {
             let trials: usize = paper.parts.iter().map(trials).sum();
             let (rows, parts) =
                 (counted(paper.rows.len(), "row"), counted(paper.parts.len(), "sweep"));
-            (Kind::Paper, format!("{rows}, {parts}, {}", counted(trials, "trial")), Vec::new())
+            let size = format!("{rows}, {parts}, {}", counted(trials, "trial"));
+            let mut all: Vec<(String, String)> = Vec::new();
+            for method in paper.parts.iter().flat_map(methods) {
+                if all.iter().all(|(label, _)| *label != method.0) {
+                    all.push(method);
+                }
+            }
+            (Kind::Paper, size, all)
         }
     };
     Listed {

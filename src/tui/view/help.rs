@@ -11,7 +11,7 @@ use crate::tui::keys::{Action, BINDINGS, Binding, Context};
 use crate::tui::model::Model;
 
 /// Columns of the keys' names.
-const KEYS: usize = 22;
+const KEYS: usize = 26;
 
 /// Where it stands.
 pub fn area(model: &Model) -> Rect {

@@ -136,3 +136,15 @@ fn the_mouse_finds_what_it_points_at() {
     let [x, y] = model.lab.viewer.cursor;
     assert!((15..=17).contains(&x) && (11..=13).contains(&y), "{x} {y}");
 }
+
+/// At the least width, labels of all registered methods can be told apart.
+#[test]
+fn short_labels_differ() {
+    let mut labels: Vec<String> =
+        crate::method::entries().iter().map(|entry| super::short(entry.card.name, 16)).collect();
+    assert!(labels.iter().all(|label| label.chars().count() <= 16));
+    let count = labels.len();
+    labels.sort();
+    labels.dedup();
+    assert_eq!(labels.len(), count);
+}
