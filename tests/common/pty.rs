@@ -170,14 +170,14 @@ impl Pty {
         self.wait(&format!("`{text}` to go"), |screen| !screen.contents().contains(text));
     }
 
-    /// Waits until nothing has been written for a while: an animation's end, for pictures of the screen only. Tests
+    /// Waits until the screen has not changed for a while: an animation's end, for pictures of the screen only. Tests
     /// wait for what they want to see.
     pub fn settle(&self, quiet: Duration) {
         let end = Instant::now() + DEADLINE;
-        let mut before = 0;
+        let mut before = Vec::new();
         while Instant::now() < end {
             thread::sleep(quiet);
-            let now = self.heard.lock().bytes.len();
+            let now = self.screen().contents_formatted();
             if now == before {
                 return;
             }
