@@ -59,6 +59,11 @@ fn run() -> Result<u8, Box<dyn std::error::Error>> {
     let gallery = Gallery::new(screen);
     let (paint, mut last, mut popup, mut deaf) = (colours(), "none".to_owned(), false, false);
     loop {
+        // The frame is as large as we say: a terminal may tell nonsense.
+        let (columns, rows) = crossterm::terminal::size()?;
+        if terminal.get_frame().area().as_size() != (columns, rows).into() {
+            terminal.resize(Rect::new(0, 0, columns, rows))?;
+        }
         let stamp = Stamp { picture: 1, version: 1 };
         draw(&mut terminal, |frame| {
             let rows = Layout::vertical([Constraint::Length(2), Constraint::Fill(1)]);
