@@ -86,8 +86,8 @@ impl Bench {
         if self.replicates.len() < first {
             return Some(Step::Replicate);
         }
-        let shown = self.wanted.first.iter().copied().filter(|m| *m < self.methods.len());
-        if let Some(method) = shown.filter(missing).next().or_else(|| all().find(|m| !slow(m))) {
+        let mut shown = self.wanted.first.iter().copied().filter(|m| *m < self.methods.len());
+        if let Some(method) = shown.find(missing).or_else(|| all().find(|m| !slow(m))) {
             return Some(Step::Image(method));
         }
         if self.replicates.len() < fair {

@@ -4,12 +4,13 @@ use ratatui::layout::Position;
 
 use super::view::Layout;
 use super::{By, Finding, Focus, Lab, Look, Order, Row, Setting, Setup, Told, Wanted};
+use crate::experiment::spec::Shape;
 use crate::job;
 use crate::method;
 use crate::tui::keys::{Action, Pressed};
 use crate::tui::message::Effect;
 use crate::tui::model::Model;
-use crate::tui::viewer::{self, Shot};
+use crate::tui::viewer::{self, Shot, Zoom};
 
 /// Steps of the keys that change much.
 const MUCH: i32 = 4;
@@ -116,6 +117,11 @@ fn turn(model: &mut Model, setting: Setting, steps: i32) -> Vec<Effect> {
             let what = format!("{}: {}", setting.name(&spec), setting.value(&changed, &spec));
             model.say(what, false);
             model.lab.setup = Some(changed);
+            if setting == Setting::Surface {
+                // A plane fills the picture; of others the outline is to be seen.
+                let flat = spec.surface.shape == Shape::Plane;
+                model.lab.viewer.zoom = if flat { Zoom::Natural } else { Zoom::Whole };
+            }
             begin(model, spec)
         }
         Err(message) => {

@@ -47,8 +47,11 @@ struct Desk {
 struct Stand {
     scene: u64,
     staged: Arc<StagedScene>,
-    maps: Vec<Option<(Lookup, Arc<dyn Prefiltered>)>>,
+    maps: Vec<Option<LookedUp>>,
 }
+
+/// A map and how it is looked up.
+type LookedUp = (Lookup, Arc<dyn Prefiltered>);
 
 /// What a thread that panicked held is taken as it is: each value is written whole.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -180,7 +183,7 @@ fn look(desk: &Desk, asked: &mpsc::Receiver<Look>, tell: &Tell) {
 }
 
 fn under(stand: &Stand, wish: &Look) -> Under {
-    let built: Vec<(usize, &(Lookup, Arc<dyn Prefiltered>))> = wish
+    let built: Vec<(usize, &LookedUp)> = wish
         .methods
         .iter()
         .filter_map(|&method| Some((method, stand.maps.get(method)?.as_ref()?)))
@@ -313,9 +316,9 @@ mod tests {
         until_done(&told, 1);
         worker.order(Order::Probe(Look { scene: 1, pixel: [16, 12], methods: vec![0, 8] }));
         let under = loop {
-            match told.recv_timeout(DEADLINE).expect("an answer") {
-                Told::Of(1, Finding::Under(under)) => break under,
-                _ => {}
+            let told = told.recv_timeout(DEADLINE).expect("an answer");
+            if let Told::Of(1, Finding::Under(under)) = told {
+                break under;
             }
         };
         assert_eq!((under.truth.len(), under.methods.len()), (1297, 2));
