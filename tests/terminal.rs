@@ -105,7 +105,9 @@ fn who_does_not_answer_a_signal_is_ended() {
 
 #[test]
 fn ctrl_z_gives_it_back_and_fg_takes_it_again() {
-    let mut job = command("bash", &["--norc", "--noprofile", "-i"], root());
+    // At home in a folder of its own: the shell writes its history there.
+    let home = tempfile::tempdir().unwrap();
+    let mut job = command("bash", &["--norc", "--noprofile", "-i"], home.path());
     job.env("PS1", "$ ");
     let pty = Pty::start(job, [100, 30]);
     pty.wait_for("$");

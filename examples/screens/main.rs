@@ -45,14 +45,21 @@ const SHOTS: &[Shot] = &[
             For("reference:"),
             For("olano-north"),
             Type("6s"),
-            For("A olano-north │ B reference"),
+            For("A olano-north │ B reference 1024 spp"),
+            For("off 0."),
         ],
     },
     Shot {
         name: "lab-error",
         size: [120, 36],
         args: &["data/denim.png"],
-        steps: &[For("reference:"), Type("6e"), For("A olano-north  |error|")],
+        steps: &[
+            For("reference:"),
+            Type("6e"),
+            For("A olano-north  |error|"),
+            For("reference: 1024 spp"),
+            For("off 0."),
+        ],
     },
     Shot {
         name: "results",

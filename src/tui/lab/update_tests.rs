@@ -7,7 +7,7 @@ use super::setup::tests::setup;
 use super::*;
 use crate::tui::keys::{BINDINGS, Context};
 use crate::tui::message::{Effect, Message};
-use crate::tui::model::{Model, Pane};
+use crate::tui::model::{Model, Pane, Popup};
 use crate::tui::picture::Depth;
 use crate::tui::update;
 use crate::tui::viewer::Side;
@@ -185,17 +185,24 @@ fn a_scene_that_cannot_be_rendered_says_why() {
     assert_eq!(model.lab.failed.as_deref(), Some("bad.png: truncated"));
 }
 
-/// Whatever is pressed, in whatever focus, with whatever open: an answer, and never a panic.
+/// Whatever is pressed, in whatever pane and focus, with whatever open: an answer, and never a panic.
 #[test]
 fn every_key_of_the_table_is_taken_everywhere() {
-    for focus in Focus::ALL {
+    for (pane, focus) in
+        Pane::ALL.into_iter().flat_map(|pane| Focus::ALL.map(|focus| (pane, focus)))
+    {
         for mut model in [empty(SIZE, Depth::True), full(SIZE, Depth::True)] {
-            for binding in BINDINGS.iter().filter(|b| b.context != Context::Question) {
-                model.lab.focus = focus;
+            for binding in BINDINGS {
                 for key in binding.keys {
+                    (model.pane, model.lab.focus) = (pane, focus);
+                    if binding.context == Context::Question {
+                        model.popup = Popup::Quit;
+                    }
                     update(&mut model, Message::Key((*key).into()));
+                    if binding.context != Context::Help {
+                        model.popup = Popup::None;
+                    }
                 }
-                model.pane = Pane::Lab;
             }
         }
     }

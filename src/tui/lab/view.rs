@@ -21,6 +21,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 use super::disc::Disc;
 use super::{By, Focus, Held, Lab, Row, Setting};
 use crate::metric::Equivalent;
+use crate::report::phrase;
 use crate::tui::model::Model;
 use crate::tui::picture::{Gallery, Paint, Slot, Stamp};
 use crate::tui::view::{panel, share};
@@ -251,7 +252,11 @@ fn short(label: &str, room: usize) -> String {
 fn costs(lab: &Lab, side: Side) -> Option<String> {
     let row = lab.rows.get(lab.viewer.side(side).checked_sub(1)?)?;
     let (time, (secs, bytes)) = (row.ns_per_pixel?, row.built?);
-    Some(format!("{side:?} {time:.0} ns/px, built in {} s, {} B/texel", brief(secs), brief(bytes)))
+    Some(format!(
+        "{side:?} {time:.0} ns/px, built in {} s, {} B/texel",
+        phrase::number(secs),
+        phrase::number(bytes)
+    ))
 }
 
 /// A method's numbers: error, time if asked for, worth.
@@ -263,28 +268,16 @@ fn numbers(row: &Row, timed: bool) -> String {
             format!("{:>14}", "takes no part")
         };
     }
-    let error = row.score.map_or_else(|| "…".to_owned(), |score| brief(score.rmse));
+    let error = row.score.map_or_else(|| "…".to_owned(), |score| phrase::number(score.rmse));
     let time = row.ns_per_pixel.map_or_else(|| "…".to_owned(), |ns| format!("{ns:.0}"));
     let worth =
         row.score.and_then(|score| score.worth).map_or_else(String::new, |worth| match worth {
-            Equivalent::Samples(n) => brief(n),
+            Equivalent::Samples(n) => phrase::number(n),
             Equivalent::MoreThan(n) => format!("> {n}"),
             Equivalent::FewerThan(n) => format!("< {n}"),
         });
     let time = if timed { format!(" {time:>6}") } else { String::new() };
     format!("{error:>7}{time} {worth:>6}")
-}
-
-/// A number of three digits.
-fn brief(value: f64) -> String {
-    match value.abs() {
-        size if size >= 99.95 => format!("{value:.0}"),
-        size if size >= 9.995 => format!("{value:.1}"),
-        size if size >= 0.0995 => format!("{value:.2}"),
-        size if size >= 0.00095 => format!("{value:.4}"),
-        0.0 => "0".to_owned(),
-        _ => format!("{value:.0e}"),
-    }
 }
 
 fn settings(lab: &Lab, area: Rect, frame: &mut Frame) {
@@ -311,7 +304,7 @@ fn settings(lab: &Lab, area: Rect, frame: &mut Frame) {
 fn normals(lab: &Lab, gallery: &Gallery, area: Rect, frame: &mut Frame) {
     let across = lab.under.as_ref().and_then(|under| under.texels_across);
     let title = match across {
-        Some(texels) => format!("Normals, {} texels across", brief(texels)),
+        Some(texels) => format!("Normals, {} texels across", phrase::number(texels)),
         None => "Normals".to_owned(),
     };
     frame.render_widget(panel(&title, lab.focus == Focus::Normals), outside(area));

@@ -6,6 +6,7 @@ use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::{Line, Span};
 
 use crate::evidence::Verdict;
+use crate::report::phrase;
 use crate::tui::library::{Kind, PaperRow, Report};
 
 /// A verdict's mark, so that it is told without colour.
@@ -60,9 +61,11 @@ pub(super) fn claims(row: &PaperRow, width: usize) -> Vec<Line<'static>> {
         let verdict = format!("{} {}", mark(claim.verdict), claim.verdict.text());
         lines.push(Line::from(Span::styled(verdict, style(claim.verdict))));
         lines.extend(paragraph("  claim   ", &claim.what, width, Style::new()));
+        // Full precision is for files.
+        let here = claim.here.parse().map_or_else(|_| claim.here.clone(), phrase::number);
         let parts = [
             ("paper", &claim.paper),
-            ("here", &claim.here),
+            ("here", &here),
             ("rule", &claim.rule),
             ("because", &claim.because),
         ];
