@@ -20,10 +20,10 @@ pub(super) fn tui(args: &TuiArgs) -> Result<Exit, Failure> {
     if let Some(what) = &args.what {
         check(what)?;
     }
-    if let Some(threads) = args.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
-        pool.build_global().map_err(Failure::failed)?;
-    }
+    // As many threads as cores if none are given; the keys go before all of them.
+    let threads = args.threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.start_handler(|_| tui::terminal::give_way()).build_global().map_err(Failure::failed)?;
     let options = Options {
         what: args.what.clone(),
         reports: args.out.clone(),

@@ -18,6 +18,8 @@ use crate::job;
 
 /// How often the time comes in.
 const TICK: Duration = Duration::from_millis(250);
+/// Least time between frames that no key asks for: findings that come fast are drawn together.
+const FRAME: Duration = Duration::from_millis(33);
 /// Messages taken in before a frame is drawn: findings that come fast do not keep the screen waiting.
 const BATCH: usize = 64;
 /// How long a run may take to halt when the program ends. What it has finished is kept whatever happens.
@@ -58,6 +60,13 @@ enum Heard {
     Encoded(Encoded),
     Notice(Notice),
     Lost(io::Error),
+}
+
+impl Heard {
+    /// Whether somebody did something and waits to see it.
+    fn is_input(&self) -> bool {
+        matches!(self, Self::Message(Message::Key(_) | Message::Mouse(_) | Message::Resized(..)))
+    }
 }
 
 /// Opens the runner, and comes back when it is left: with the signal that asked for that, if one did.
@@ -184,21 +193,31 @@ impl App {
         }
     }
 
-    /// Takes messages and draws frames until it is time to go.
+    /// Takes messages and draws frames until it is time to go. What a key does is drawn at once, all else soon.
     fn attend(&mut self, heard: &Receiver<Heard>) -> Result<Option<Signal>, TuiError> {
-        let mut next_tick = Instant::now();
+        let (mut next_tick, mut next_frame) = (Instant::now(), Instant::now());
+        let mut fresh = true;
         loop {
             let now = Instant::now();
             if now >= next_tick {
                 next_tick = now + TICK;
                 update(&mut self.model, Message::Tick(SystemTime::now()));
+                fresh = true;
             }
-            self.draw()?;
-            let mut waiting =
-                heard.recv_timeout(next_tick.saturating_duration_since(Instant::now()));
+            if fresh && now >= next_frame {
+                self.draw()?;
+                next_frame = Instant::now() + FRAME;
+                fresh = false;
+            }
+            let until = if fresh { next_frame.min(next_tick) } else { next_tick };
+            let mut waiting = heard.recv_timeout(until.saturating_duration_since(Instant::now()));
             for _ in 0..BATCH {
                 match waiting {
                     Ok(one) => {
+                        fresh = true;
+                        if one.is_input() {
+                            next_frame = now;
+                        }
                         if let Some(end) = self.hear(one)? {
                             return Ok(end);
                         }

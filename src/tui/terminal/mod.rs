@@ -8,10 +8,12 @@
 //! ```
 
 mod input;
+mod precedence;
 mod sequences;
 mod session;
 mod signals;
 
 pub use input::Input;
+pub use precedence::give_way;
 pub use session::{Options, Session, SessionError, Tty, draw, give_back};
 pub use signals::{Notice, Signal, watch};

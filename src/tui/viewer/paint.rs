@@ -1,7 +1,7 @@
 //! From what is looked at to a picture of any size.
 
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use super::{Tone, Zoom};
 use crate::experiment::results::Picture;
@@ -133,7 +133,7 @@ impl Sight {
             truth.unwrap_or([0.0; 2])
         };
         match self.tone {
-            Tone::Image => [srgb(value / self.white); 3],
+            Tone::Image => [code(value / self.white); 3],
             Tone::Error => heat(off()[0] / self.white),
             Tone::Difference => signed(off()[1] / self.white),
         }
@@ -165,6 +165,23 @@ impl Paint for Sight {
         }
         Picture { width, height, rgb }
     }
+}
+
+/// [`srgb`], looked up: a picture has many pixels, and a key waits for them.
+fn code(linear: f64) -> u8 {
+    /// The least linear value of each code above 0.
+    static LEAST: LazyLock<[f64; 255]> = LazyLock::new(|| {
+        std::array::from_fn(|below| {
+            // Halves until the doubles on either side of the step are found.
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..64 {
+                let middle: f64 = 0.5 * (low + high);
+                if usize::from(srgb(middle)) > below { high = middle } else { low = middle }
+            }
+            high
+        })
+    });
+    LEAST.partition_point(|least| *least <= linear) as u8
 }
 
 /// Marks the cursor: the corners of its pixel where that is large, else four dots about it.
@@ -258,6 +275,15 @@ mod tests {
         assert_eq!(mean(&film, [[2.0, 0.0], [4.0, 2.0]]), Some(4.5));
         assert_eq!(mean(&film, [[3.2, 1.2], [3.4, 1.4]]), Some(7.0));
         assert_eq!(mean(&film, [[-1.0, 0.0], [-0.2, 1.0]]), None);
+    }
+
+    #[test]
+    fn codes_are_those_of_srgb() {
+        for i in 0..=40_000 {
+            let linear = f64::from(i) / 32_768.0 - 0.1;
+            assert_eq!(code(linear), srgb(linear), "{linear}");
+        }
+        assert_eq!(code(f64::NAN), srgb(f64::NAN));
     }
 
     #[test]
