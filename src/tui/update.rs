@@ -100,7 +100,14 @@ pub(super) fn show(model: &mut Model, pane: Pane) -> Vec<Effect> {
     match (from, pane) {
         (Pane::Lab, Pane::Lab) => Vec::new(),
         (Pane::Lab, _) => vec![Effect::Lab(lab::Order::Rest)],
-        (_, Pane::Lab) => lab::enter(model),
+        (_, Pane::Lab) => {
+            if model.experiments.is_running() {
+                let shared =
+                    "a run is under way: while both render, the times of neither tell much";
+                model.say(shared, false);
+            }
+            lab::enter(model)
+        }
         (_, Pane::Results) => Results::enter(model),
         _ => Vec::new(),
     }

@@ -195,6 +195,10 @@ impl Experiments {
                 if self.reading.as_ref() == Some(&name) {
                     self.reading = None;
                 }
+                // That a run of ours which was halted has written no report yet is no news.
+                let known = self.report(&name).is_none_or(|report| report.written.is_none())
+                    && self.run.as_ref().is_some_and(|run| run.name == name);
+                let problems = if known { Vec::new() } else { problems };
                 let mut asks = Vec::new();
                 if let Some(first) = problems.first() {
                     asks.push(Ask::Problem(format!("{name}: {first}")));

@@ -176,7 +176,7 @@ fn empty(lab: &Lab) -> Option<String> {
 fn working(lab: &Lab, area: Rect, frame: &mut Frame) {
     let text = match (&lab.working, lab.reference) {
         (Some((what, part)), _) if *part > 0.0 => {
-            format!(" {what} {} {:.0} %", share(*part, 12), 100.0 * part)
+            format!(" {what} {} {:.0} %", share(*part, 8), 100.0 * part)
         }
         (Some((what, _)), None) => format!(" {what}"),
         (working, Some((spp, rmse))) => {
