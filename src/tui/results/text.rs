@@ -8,6 +8,7 @@ use ratatui::text::{Line, Span};
 use crate::evidence::Verdict;
 use crate::report::phrase;
 use crate::tui::library::{Kind, PaperRow, Report};
+use crate::tui::view::words::wrapped;
 
 /// A verdict's mark, so that it is told without colour.
 pub(super) fn mark(verdict: Verdict) -> &'static str {
@@ -80,19 +81,7 @@ pub(super) fn claims(row: &PaperRow, width: usize) -> Vec<Line<'static>> {
 pub(super) fn paragraph(head: &str, text: &str, width: usize, style: Style) -> Vec<Line<'static>> {
     let indent = columns(head);
     let room = width.saturating_sub(indent).max(8);
-    let mut rows = vec![String::new()];
-    for word in text.split_whitespace() {
-        for piece in pieces(word, room) {
-            let row = rows.last_mut().expect("one at least");
-            if row.is_empty() {
-                *row = piece;
-            } else if columns(row) + 1 + columns(&piece) <= room {
-                *row = format!("{row} {piece}");
-            } else {
-                rows.push(piece);
-            }
-        }
-    }
+    let rows = wrapped(text, u16::try_from(room).unwrap_or(u16::MAX));
     let line = |(i, row): (usize, String)| {
         let start = if i == 0 { head.to_owned() } else { " ".repeat(indent) };
         Line::from(Span::styled(start + &row, style))
@@ -124,20 +113,6 @@ pub(super) fn shortened(name: &str, room: usize) -> String {
     }
     let [front, back] = ends;
     format!("{front}…{}", back.chars().rev().collect::<String>())
-}
-
-/// A word in pieces of at most this width.
-fn pieces(word: &str, room: usize) -> Vec<String> {
-    let mut pieces = vec![String::new()];
-    for c in word.chars() {
-        let piece = pieces.last_mut().expect("one at least");
-        if !piece.is_empty() && columns(piece) + columns(c.encode_utf8(&mut [0; 4])) > room {
-            pieces.push(c.to_string());
-        } else {
-            piece.push(c);
-        }
-    }
-    pieces
 }
 
 /// How long ago something was.

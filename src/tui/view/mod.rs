@@ -9,6 +9,7 @@
 
 pub mod help;
 mod parts;
+pub mod words;
 
 pub use parts::{panel, share, title};
 

@@ -1,5 +1,6 @@
 //! What the chosen experiment is about, and how far the run is.
 
+use crate::tui::view::words::{at_most, wrapped};
 use std::time::SystemTime;
 
 use ratatui::Frame;
@@ -7,7 +8,6 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::text::{Line, Text};
 
-use super::words::{at_most, wrapped};
 use crate::tui::experiments::{End, Experiments, Run, State, progress};
 use crate::tui::library::Listed;
 use crate::tui::table::fitted;

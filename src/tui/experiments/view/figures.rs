@@ -1,11 +1,11 @@
 //! The chart, the table and the log.
 
+use crate::tui::view::words::wrapped;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::{Line, Span, Text};
 
-use super::words::wrapped;
 use crate::tui::chart::{Bars, Chart, Scale};
 use crate::tui::experiments::{Entry, Experiments, Focus, Plot, log, progress};
 use crate::tui::table::{Cell, TableView};

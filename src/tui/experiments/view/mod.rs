@@ -16,7 +16,6 @@ mod about;
 mod figures;
 mod layout;
 mod list;
-mod words;
 
 use ratatui::Frame;
 use ratatui::layout::Rect;
