@@ -156,13 +156,14 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, placement: &Placemen
     let centre = [spec.image.width / 2, spec.image.height / 2];
     // Beside the centre, a pixel halfway to the image's corner, where the highlight fades.
     let aside = [spec.image.width / 4, spec.image.height / 4];
-    let ReferenceSpec { spp, replicates, truth } = spec.reference;
-    let still = ReferencePlan { spp, replicates, truth, first: 1 };
+    let ReferenceSpec { replicates, truth, gap, .. } = spec.reference;
+    let (spp, most) = (spec.reference.replicate_spp(), spec.reference.most_replicates());
+    let still = ReferencePlan { spp, replicates, most, gap, truth, first: 1 };
     let Some(Frame { number, .. }) = placement.frame else {
         return world.spawn((of, placement.tiling, still, ProbePlan(vec![centre, aside]))).id();
     };
     // No two frames' references share a random number, so that the noise of their difference is known.
-    let reference = ReferencePlan { first: 1 + number * replicates, ..still };
+    let reference = ReferencePlan { first: 1 + number * most, ..still };
     let before = TiledBefore(placement.first);
     world.spawn((of, placement.tiling, before, reference, ProbePlan(vec![centre]))).id()
 }

@@ -82,10 +82,12 @@ pub(super) fn collect(
             sequence: scene.sequence.clone(),
             reference: Reference {
                 film: Arc::new(image.0.film.clone()),
+                variance: image.0.variance.clone(),
                 spp: image.0.spp,
                 rmse: image.0.rmse,
                 mean_error: image.0.mean_error,
                 truth: spec.reference.truth,
+                gap: spec.reference.gap,
             },
             trials,
             refusals,
@@ -169,7 +171,8 @@ pub(super) fn probe_records(
 
 /// Scores with names that can be written.
 pub(super) fn named_scores(scores: &Scores) -> Vec<Score> {
-    let named = |&(metric, value): &(&str, f64)| Score { metric: metric.to_owned(), value };
+    let named =
+        |&(metric, value): &(&str, f64)| Score { metric: metric.to_owned(), value, interval: None };
     scores.0.iter().map(named).collect()
 }
 

@@ -4,24 +4,32 @@
 //! into its digest (see [`super::store`]).
 
 use super::author::{PlannedScene, PlannedTrial};
-use super::spec::{EnvironmentSource, LightSpec, Spec, SurfaceSpec, TextureSource, TextureSpec};
+use super::spec::{
+    EnvironmentSource, LightSpec, ReferenceSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+};
+use crate::render::{Converged, Film};
 use crate::surface::files_of;
 
 /// Name of a scene's reference among its records.
 pub(super) const REFERENCE: &str = "reference";
+/// Name of the errors of its pixels.
+pub(super) const REFERENCE_ERROR: &str = "reference-error";
+/// Name of the record that it is as good as it needs to be.
+pub(super) const SETTLED: &str = "settled";
 /// Name of a scene's probes among its records.
 pub(super) const PROBES: &str = "probes";
 
 /// What is common to all scenes of an experiment.
 pub(super) fn common(spec: &Spec) -> String {
     format!(
-        "{:?} {} {:?} {} {:?} {:?} {}",
+        "{:?} {} {:?} {} {:?} {} {:?} {}",
         spec.image,
         surface(&spec.surface),
         spec.camera,
         light(&spec.light),
         spec.shading,
-        spec.reference,
+        spec.reference.replicate_spp(),
+        spec.reference.truth,
         spec.seed
     )
 }
@@ -60,6 +68,28 @@ pub(super) fn texture(texture: &TextureSpec) -> String {
 pub(super) fn scene(scene: &PlannedScene) -> String {
     let PlannedScene { texture_key, base, tiling, distance, elevation, frame, .. } = scene;
     format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?} {frame:?}")
+}
+
+/// What its reference of so many replicates depends on.
+pub(super) fn reference(scene: &PlannedScene, replicates: u32) -> String {
+    format!("{} {replicates} replicates", self::scene(scene))
+}
+
+/// What it depends on how many replicates a scene's reference needs: the trials it is to tell apart.
+pub(super) fn settled(spec: &Spec, of: &PlannedScene) -> String {
+    let counts: Vec<(usize, u32)> = of.trials.iter().map(|t| (t.method, t.spp)).collect();
+    let ReferenceSpec { most, gap, .. } = spec.reference;
+    format!("{} {:?} {counts:?} {most} {gap:?}", scene(of), spec.sweep.methods)
+}
+
+/// What a trial's scores depend on: its film, and the reference with its errors.
+pub(super) fn scores(trial: &Film, reference: &Converged) -> String {
+    format!("{} {} {}", trial.digest(), reference.film.digest(), reference.error().digest())
+}
+
+/// Name of a trial's scores.
+pub(super) fn scores_name(spec: &Spec, trial: &PlannedTrial) -> String {
+    format!("{}-scores", trial_name(spec, trial))
 }
 
 /// What a trial depends on.
