@@ -15,7 +15,7 @@ use crate::scene::{BuildCost, Exposure, Prefilter, Probes, Progress, ReferenceIm
 impl Run<'_> {
     /// Puts into the world what an earlier run finished of this scene.
     pub(super) fn take_up(&mut self, scene: &PlannedScene) {
-        let (depends, slug) = (keys::scene(scene), scene.slug.as_str());
+        let (depends, slug) = (keys::reference(self.spec, scene), scene.slug.as_str());
         let world = &mut self.stage.world;
         let found: Option<(ReferenceRecord, _)> =
             self.store.find_with_film(slug, keys::REFERENCE, &depends);
@@ -115,7 +115,7 @@ impl Run<'_> {
         };
         let Converged { spp, rmse, mean_error, .. } = *image.0;
         let record = ReferenceRecord { spp, rmse, mean_error };
-        let depends = keys::scene(scene);
+        let depends = keys::reference(self.spec, scene);
         self.store.keep_with_film(
             &scene.slug,
             keys::REFERENCE,
