@@ -203,6 +203,16 @@ impl Store {
         Some(film)
     }
 
+    /// Takes in all that is kept in another folder of results.
+    ///
+    /// # Errors
+    /// If something cannot be written, or read from there.
+    pub fn take_in(folder: &Path, other: &Path) -> Result<(), StoreError> {
+        Archive::of(folder)
+            .take_in(&Archive::of(other))
+            .map_err(|(path, source)| StoreError::Write { path, source })
+    }
+
     /// Gives a kept film the name that users look for.
     fn show(&self, scene: &str, name: &str, image: &str) -> Result<(), StoreError> {
         let path = self.image_path(scene, name);
