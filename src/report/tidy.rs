@@ -196,6 +196,10 @@ struct Figure<'a> {
     spp: Option<u32>,
     metric: &'a str,
     value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -253,6 +257,8 @@ fn scene_json(scene: &SceneResult) -> SceneJson<'_> {
         spp: row.spp,
         metric: row.metric,
         value: row.value,
+        low: row.interval.map(|[low, _]| low),
+        high: row.interval.map(|[_, high]| high),
     });
     SceneJson {
         slug: &scene.slug,

@@ -75,7 +75,7 @@ pub(super) fn score(
 }
 
 /// Looks under the current scene's chosen footprints, once all its prefilters are there.
-fn probe(
+pub(super) fn probe(
     mut commands: Commands,
     current: Res<Current>,
     view: SceneView,
