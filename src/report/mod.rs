@@ -30,6 +30,7 @@ mod figures;
 mod files;
 mod fit_plot;
 mod font;
+mod format;
 mod grid;
 mod lobe_sheet;
 mod mark;
@@ -58,6 +59,7 @@ pub use disc::cell_of_normal;
 pub use evidence::write_evidence;
 pub use files::ReportError;
 pub use fit_plot::fit_plot;
+pub use format::{FORMAT, Newer, check_format};
 pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};

@@ -151,6 +151,7 @@ fn probe_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
 
 #[derive(Serialize)]
 struct Document<'a> {
+    format: u32,
     experiment: &'a str,
     title: &'a str,
     question: &'a str,
@@ -219,6 +220,7 @@ struct ProbedJson<'a> {
 /// `metrics.json`: the same figures scene by scene, with refusals, probes, methods and the spec.
 pub fn json(results: &Results) -> Vec<u8> {
     let document = Document {
+        format: super::FORMAT,
         experiment: &results.name,
         title: &results.title,
         question: &results.question,
