@@ -4,24 +4,35 @@
 //! into its digest (see [`super::store`]).
 
 use super::author::{PlannedScene, PlannedTrial};
-use super::spec::{EnvironmentSource, LightSpec, Spec, SurfaceSpec, TextureSource, TextureSpec};
+use super::spec::{
+    EnvironmentSource, LightSpec, ReferenceSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+};
+use crate::render::{Converged, Film};
 use crate::surface::files_of;
 
 /// Name of a scene's reference among its records.
 pub(super) const REFERENCE: &str = "reference";
+/// Name of the errors of its pixels.
+pub(super) const REFERENCE_ERROR: &str = "reference-error";
+/// Name of the record that it is as good as it needs to be.
+pub(super) const SETTLED: &str = "settled";
 /// Name of a scene's probes among its records.
 pub(super) const PROBES: &str = "probes";
+
+/// Name of the budgets of a scene's errors among its records.
+pub(super) const BUDGET: &str = "budget";
 
 /// What is common to all scenes of an experiment.
 pub(super) fn common(spec: &Spec) -> String {
     format!(
-        "{:?} {} {:?} {} {:?} {:?} {}",
+        "{:?} {} {:?} {} {:?} {} {:?} {}",
         spec.image,
         surface(&spec.surface),
         spec.camera,
         light(&spec.light),
         spec.shading,
-        spec.reference,
+        spec.reference.replicate_spp(),
+        spec.reference.truth,
         spec.seed
     )
 }
@@ -62,6 +73,28 @@ pub(super) fn scene(scene: &PlannedScene) -> String {
     format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?} {frame:?}")
 }
 
+/// What its reference of so many replicates depends on.
+pub(super) fn reference(scene: &PlannedScene, replicates: u32) -> String {
+    format!("{} {replicates} replicates", self::scene(scene))
+}
+
+/// What it depends on how many replicates a scene's reference needs: the trials it is to tell apart.
+pub(super) fn settled(spec: &Spec, of: &PlannedScene) -> String {
+    let counts: Vec<(usize, u32)> = of.trials.iter().map(|t| (t.method, t.spp)).collect();
+    let ReferenceSpec { most, gap, .. } = spec.reference;
+    format!("{} {:?} {counts:?} {most} {gap:?}", scene(of), spec.sweep.methods)
+}
+
+/// What a trial's scores depend on: its film, and the reference with its errors.
+pub(super) fn scores(trial: &Film, reference: &Converged) -> String {
+    format!("{} {} {}", trial.digest(), reference.film.digest(), reference.error().digest())
+}
+
+/// Name of a trial's scores.
+pub(super) fn scores_name(spec: &Spec, trial: &PlannedTrial) -> String {
+    format!("{}-scores", trial_name(spec, trial))
+}
+
 /// What a trial depends on.
 pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> String {
     format!("{} {:?} {}", scene(of), spec.sweep.methods[trial.method], trial.spp)
@@ -70,6 +103,11 @@ pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> Str
 /// What a scene's probes depend on.
 pub(super) fn probes(spec: &Spec, of: &PlannedScene) -> String {
     format!("{} {:?}", scene(of), spec.sweep.methods)
+}
+
+/// What the budgets of a scene's errors depend on: what its probes do, and its reference.
+pub(super) fn budget(spec: &Spec, of: &PlannedScene, reference: &Film) -> String {
+    format!("{} {:?} {}", probes(spec, of), spec.budget, reference.digest())
 }
 
 /// What a prefilter depends on.

@@ -1,6 +1,7 @@
 //! Floor 6: the experiment spec, its sweep into trials, the runner, and the results on disk.
 
 pub mod author;
+mod budget;
 mod collect;
 mod event;
 mod keys;

@@ -7,12 +7,14 @@
 mod distribution;
 mod equivalent;
 mod flicker;
+mod lead;
 mod pixelwise;
 mod ssim;
 
 pub use distribution::total_variation;
 pub use equivalent::{Equivalent, SpeedUp, equivalent_samples};
 pub use flicker::{Flicker, Step, flicker_map};
+pub use lead::{Lead, Verdict, Z};
 pub use pixelwise::{DARK, HIGHLIGHT};
 pub use ssim::{K1, K2, SIGMA, WINDOW, ssim};
 

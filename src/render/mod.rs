@@ -22,7 +22,7 @@ pub use image_file::{Coding, FilmError, StoredImage, read_image};
 pub use parts::{Part, Replaced, Scene, Subject, replaced};
 pub use portrait::Portrait;
 pub use probe::true_distribution;
-pub use reference::{Converged, average};
+pub use reference::{Converged, Tally, average};
 pub use renderer::{Cancelled, render};
 pub use sampler::{Choices, PixelSampler, stream};
 pub use view::View;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::trial::{SceneView, StagedScene};
 use super::{
     Current, Halt, LookupBy, Prefilter, PrefilterOf, Progress, ReferenceImage, ReferencePlan, Seed,
-    Stage, Strategy, Watch,
+    Settled, Stage, Strategy, Watch,
 };
 use crate::method::{Prefiltered, Truth};
 use crate::render::{Cancelled, Film, Part, PixelSampler, Subject, replaced};
@@ -87,13 +87,16 @@ struct Filter<'a> {
     lookups: &'static [Lookup],
 }
 
-/// Draws up the budgets of the current scene, once its reference and all their prefilters are there.
+/// Draws up the budgets of the current scene, once its reference is settled and all their prefilters are there.
 #[allow(clippy::type_complexity)]
 fn draw_up(
     mut commands: Commands,
     (current, halt, seed, watch): (Res<Current>, Res<Halt>, Res<Seed>, Res<Watch>),
     view: SceneView,
-    scenes: Query<(&BudgetPlan, &ReferencePlan, &ReferenceImage), Without<Budgets>>,
+    scenes: Query<
+        (&BudgetPlan, &ReferencePlan, &ReferenceImage),
+        (With<Settled>, Without<Budgets>),
+    >,
     (prefilters, strategies): (Query<(&Prefilter, &PrefilterOf, &LookupBy)>, Query<&Strategy>),
     mut progress: MessageWriter<Progress>,
 ) {

@@ -58,7 +58,7 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 
 /// Scores one trial of the current scene that has a film.
 #[allow(clippy::type_complexity)]
-fn score(
+pub(super) fn score(
     mut commands: Commands,
     current: Res<Current>,
     references: Query<&ReferenceImage>,

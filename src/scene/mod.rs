@@ -15,6 +15,7 @@ mod light;
 mod measure;
 mod prefilter;
 mod reference;
+mod settle;
 mod shelf;
 mod surface;
 mod texture;
@@ -24,7 +25,8 @@ pub use budget::{Balance, BudgetPlan, Budgets, Entry};
 pub use light::{Kindled, LightOrigin, MovedLight};
 pub use measure::{Held, Probe, ProbedMethod, Probes, Scores, Under, look_under};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
-pub use reference::ReferenceImage;
+pub use reference::{ReferenceImage, Replicates};
+pub use settle::Settled;
 pub use shelf::Shelf;
 pub use surface::{Shaped, SurfaceOrigin};
 pub use texture::{BumpSource, LoadError, Map, Texture};
@@ -115,10 +117,14 @@ pub struct TiledBefore(pub Entity);
 /// Samples of the scene's reference.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct ReferencePlan {
-    /// Samples a pixel, all replicates together.
+    /// Samples a pixel of each replicate.
     pub spp: u32,
-    /// Independent replicates, at least 2.
+    /// Independent replicates, at least 2. Doubled while it is open which trial is nearest, up to `most`.
     pub replicates: u32,
+    /// The most replicates there may be.
+    pub most: u32,
+    /// The least relative difference of root mean square errors that it is to tell apart.
+    pub gap: f64,
     /// Number of the first replicate, at least 1: replicate 0 belongs to the trials. References whose numbers
     /// differ share no random number.
     pub first: u32,
@@ -212,6 +218,16 @@ pub enum Progress {
         /// The trial.
         trial: Entity,
     },
+    /// The reference leaves open which trial is nearest: it is sampled further, and trials are scored again.
+    Undecided {
+        /// The scene.
+        scene: Entity,
+    },
+    /// The reference is as good as it needs to be, or as it may be.
+    Settled {
+        /// The scene.
+        scene: Entity,
+    },
     /// A scene's footprints were probed.
     Probed {
         /// The scene.
@@ -266,6 +282,7 @@ impl Stagehand {
             reference::plugin,
             trial::plugin,
             measure::plugin,
+            settle::plugin,
             budget::plugin,
         ] {
             plugin(&mut schedule);
