@@ -18,9 +18,9 @@ use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::direction;
 use crate::scene::{
-    BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
-    ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy, SurfaceOrigin,
-    SurfaceShape, Texture, TiledBefore, Tiling, TrialOf,
+    BudgetPlan, BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
+    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy,
+    SurfaceOrigin, SurfaceShape, Texture, TiledBefore, Tiling, TrialOf,
 };
 use crate::surface::{
     Cylinder, MainDirection, Mesh, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame,
@@ -129,6 +129,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
                 let of = SceneOf { texture, surface, camera, light, material };
                 let sequence = slug(spec, index, &base, placement);
                 let scene = spawn_scene(world, spec, of, placement);
+                plan_budget(world, spec, scene, &prefilters);
                 plan.scenes.push(PlannedScene {
                     entity: scene,
                     texture: index,
@@ -166,6 +167,15 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, placement: &Placemen
     let reference = ReferencePlan { first: 1 + number * most, ..still };
     let before = TiledBefore(placement.first);
     world.spawn((of, placement.tiling, before, reference, ProbePlan(vec![centre]))).id()
+}
+
+/// Asks for the budgets that the spec wants of a scene.
+fn plan_budget(world: &mut World, spec: &Spec, scene: Entity, prefilters: &[Entity]) {
+    if let Some(budget) = &spec.budget {
+        let prefilters = budget.methods.iter().map(|&method| prefilters[method]).collect();
+        let plan = BudgetPlan { prefilters, points: budget.points };
+        world.entity_mut(scene).insert(plan);
+    }
 }
 
 /// One prefilter a method; those that differ in their lookup alone are built once.

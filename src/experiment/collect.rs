@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::author::{Plan, PlannedScene, load};
+use super::budget::budgets;
 use super::keys;
 use super::results::{
     Costs, MethodInfo, Peak, Picture, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo,
@@ -92,6 +93,7 @@ pub(super) fn collect(
             trials,
             refusals,
             probes: probes.into_iter().map(probe).collect(),
+            budgets: budgets(spec, scene, &stage.world),
         });
     }
     let results = Results {

@@ -22,6 +22,9 @@ pub(super) const SETTLED: &str = "settled";
 /// Name of a scene's probes among its records.
 pub(super) const PROBES: &str = "probes";
 
+/// Name of the budgets of a scene's errors among its records.
+pub(super) const BUDGET: &str = "budget";
+
 /// What is common to all scenes of an experiment. (Where things stand in a first frame is how textures are laid in
 /// the others.)
 pub(super) fn common(spec: &Spec) -> String {
@@ -130,6 +133,11 @@ pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> Str
 /// What a scene's probes depend on, the labels of methods among it: they stand in the record.
 pub(super) fn probes(spec: &Spec, of: &PlannedScene) -> String {
     format!("{} {:?} {:?}", scene(of), spec.reference.truth, spec.sweep.methods)
+}
+
+/// What the budgets of a scene's errors depend on: what its probes do, and its reference.
+pub(super) fn budget(spec: &Spec, of: &PlannedScene, reference: &Film) -> String {
+    format!("{} {:?} {}", probes(spec, of), spec.budget, reference.digest())
 }
 
 /// What a prefilter depends on.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+pub use super::budget::Budget;
 use super::sequence::Sequence;
 use super::spec::MotionSpec;
 use crate::method::Truth;
@@ -132,6 +133,8 @@ pub struct SceneResult {
     pub refusals: Vec<RefusalInfo>,
     /// Footprints whose distribution of normals was looked at.
     pub probes: Vec<Probe>,
+    /// Budgets of the errors of some methods, if the spec asks for them.
+    pub budgets: Vec<Budget>,
 }
 
 /// A converged reference image.

@@ -1,6 +1,7 @@
 //! The runner: works through the scenes of an experiment, keeps what is done, and takes up what an
 //! earlier run kept.
 
+mod budget;
 mod part;
 mod records;
 mod tell;
@@ -178,6 +179,7 @@ impl Run<'_> {
         (self.watch)(RunEvent::Scene { slug, part: None, number, of });
         self.left = self.work.scene(scene);
         self.take_up(scene);
+        self.take_up_budgets(scene);
         self.stage.world.insert_resource(Current(scene.entity));
         let done = self.complete(scene) || self.work_at(scene)?;
         if done {
@@ -264,6 +266,7 @@ impl Run<'_> {
                 let label = &self.spec.sweep.methods[trial.method].label;
                 (format!("rendering {label} at {} spp", trial.spp), self.work.trial(trial))
             }
+            None if self.wants_budgets(scene) => ("sharing errors out".to_owned(), 0.0),
             None => ("measuring".to_owned(), 0.0),
         }
     }

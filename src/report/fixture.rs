@@ -153,6 +153,7 @@ fn scene(t: usize, texture: &str, scale: f64) -> SceneResult {
         trials: trials.collect(),
         refusals: METHODS.iter().filter(|m| refused(m.0)).map(|m| refusal(m.0)).collect(),
         probes: if scale == 16.0 && t == 0 { vec![probe()] } else { vec![] },
+        budgets: Vec::new(),
     }
 }
 

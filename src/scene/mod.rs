@@ -6,10 +6,11 @@
 //! An author (the experiment, on the floor above) spawns entities and names the scene to work at in
 //! [`Current`]. Every run of the schedule is a *tick*: each set, in order, does at most one piece of
 //! work for that scene — load its texture, build one prefilter, render one replicate of the reference,
-//! one trial, score one trial — and tells of it in a [`Progress`] message. When nothing is pending the
-//! scene is done. Systems run one after another, so that timings mean something, and use all cores
-//! inside.
+//! one trial, score one trial, draw up budgets — and tells of it in a [`Progress`] message. When nothing is
+//! pending the scene is done. Systems run one after another, so that timings mean something, and use all
+//! cores inside.
 
+mod budget;
 mod light;
 mod measure;
 mod prefilter;
@@ -20,6 +21,7 @@ mod surface;
 mod texture;
 mod trial;
 
+pub use budget::{Balance, BudgetPlan, Budgets, Entry};
 pub use light::{Kindled, LightOrigin, MovedLight};
 pub use measure::{Held, Probe, ProbedMethod, Probes, Scores, Under, look_under};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
@@ -56,6 +58,8 @@ pub enum Stage {
     Render,
     /// Trials gain scores; footprints are probed.
     Measure,
+    /// Errors are shared out among the parts of their methods.
+    Budget,
 }
 
 /// What a surface is made of.
@@ -229,6 +233,11 @@ pub enum Progress {
         /// The scene.
         scene: Entity,
     },
+    /// The budgets of a scene's errors were drawn up.
+    Budgeted {
+        /// The scene.
+        scene: Entity,
+    },
 }
 
 /// A world with its schedule.
@@ -255,7 +264,14 @@ impl Stagehand {
             ..Default::default()
         });
         schedule.configure_sets(
-            (Stage::Texture, Stage::Prefilter, Stage::Reference, Stage::Render, Stage::Measure)
+            (
+                Stage::Texture,
+                Stage::Prefilter,
+                Stage::Reference,
+                Stage::Render,
+                Stage::Measure,
+                Stage::Budget,
+            )
                 .chain(),
         );
         for plugin in [
@@ -267,6 +283,7 @@ impl Stagehand {
             trial::plugin,
             measure::plugin,
             settle::plugin,
+            budget::plugin,
         ] {
             plugin(&mut schedule);
         }

@@ -108,7 +108,7 @@ impl Run<'_> {
         if let Some(probes) = &probes {
             self.tell_probes(scene, probes);
         }
-        probes.is_some()
+        probes.is_some() && !self.wants_budgets(scene)
     }
 
     /// Keeps a piece of work that a tick has done.
@@ -124,6 +124,7 @@ impl Run<'_> {
             Progress::Undecided { .. } => self.look_for_more(scene),
             Progress::Settled { .. } => self.keep_settled(scene)?,
             Progress::Probed { .. } => self.keep_probes(scene)?,
+            Progress::Budgeted { .. } => self.keep_budgets(scene)?,
         }
         Ok(())
     }
