@@ -41,6 +41,7 @@ mod polar;
 mod ranking;
 mod scale;
 mod sheet;
+mod source;
 mod split;
 mod tables;
 mod template;
