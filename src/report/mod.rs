@@ -47,6 +47,7 @@ mod tables;
 mod template;
 mod tidy;
 mod tone;
+mod viewer;
 mod words;
 
 #[cfg(test)]

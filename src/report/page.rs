@@ -12,6 +12,8 @@ use super::source::Lines;
 use super::split;
 use super::tables::{self, Table};
 use super::template::render;
+use super::tidy;
+use super::viewer::pack;
 use super::words;
 use crate::experiment::results::{Costs, MethodInfo, Results, TextureInfo};
 
@@ -36,6 +38,8 @@ pub struct Page<'a> {
     reading: &'static str,
     spec: &'a str,
     seed: u64,
+    /// `metrics.csv`, packed, for the rows behind figures.
+    rows: String,
 }
 
 /// The tables of one setting.
@@ -93,6 +97,7 @@ impl<'a> Page<'a> {
             reading: words::DISTRIBUTIONS,
             spec: &results.spec,
             seed: results.seed,
+            rows: pack::packed(&tidy::csv(results)),
         }
     }
 }
