@@ -7,14 +7,23 @@ use std::path::Path;
 
 use super::author::{PlannedScene, PlannedTrial};
 use super::spec::{
-    EnvironmentSource, LightSpec, MethodSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+    EnvironmentSource, LightSpec, MethodSpec, ReferenceSpec, Spec, SurfaceSpec, TextureSource,
+    TextureSpec,
 };
+use crate::render::{Converged, Film};
 use crate::surface::files_of;
 
 /// Name of a scene's reference among its records.
 pub(super) const REFERENCE: &str = "reference";
+/// Name of the errors of its pixels.
+pub(super) const REFERENCE_ERROR: &str = "reference-error";
+/// Name of the record that it is as good as it needs to be.
+pub(super) const SETTLED: &str = "settled";
 /// Name of a scene's probes among its records.
 pub(super) const PROBES: &str = "probes";
+
+/// Name of the budgets of a scene's errors among its records.
+pub(super) const BUDGET: &str = "budget";
 
 /// What is common to all scenes of an experiment. (Where things stand in a first frame is how textures are laid in
 /// the others.)
@@ -90,20 +99,45 @@ fn scene(scene: &PlannedScene) -> String {
     format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?} {frame:?}")
 }
 
-/// What a scene's reference depends on.
-pub(super) fn reference(spec: &Spec, of: &PlannedScene) -> String {
-    format!("{} {:?}", scene(of), spec.reference)
+/// What a scene's reference of so many replicates depends on. (Frames take their random numbers one after another,
+/// each as many as it may need.)
+pub(super) fn reference(spec: &Spec, of: &PlannedScene, replicates: u32) -> String {
+    let ReferenceSpec { truth, most, .. } = spec.reference;
+    let (spp, most) = (spec.reference.replicate_spp(), of.frame.map(|_| most));
+    format!("{} {truth:?} {replicates} replicates of {spp} {most:?}", scene(of))
 }
 
-/// What a trial depends on; its scores do on the reference.
+/// What it depends on how many replicates a scene's reference needs: the trials it is to tell apart.
+pub(super) fn settled(spec: &Spec, of: &PlannedScene) -> String {
+    let ReferenceSpec { replicates, most, gap, .. } = spec.reference;
+    let trials: Vec<String> = of.trials.iter().map(|t| trial(spec, of, t)).collect();
+    format!("{} {most} {gap:?} {trials:?}", reference(spec, of, replicates))
+}
+
+/// What a trial's scores depend on: its film, and the reference with its errors.
+pub(super) fn scores(trial: &Film, reference: &Converged) -> String {
+    format!("{} {} {}", trial.digest(), reference.film.digest(), reference.error().digest())
+}
+
+/// Name of a trial's scores.
+pub(super) fn scores_name(spec: &Spec, trial: &PlannedTrial) -> String {
+    format!("{}-scores", trial_name(spec, trial))
+}
+
+/// What a trial depends on; its scores depend on the reference too.
 pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> String {
     let method = method(&spec.sweep.methods[trial.method]);
-    format!("{} {method} {}", reference(spec, of), trial.spp)
+    format!("{} {method} {}", scene(of), trial.spp)
 }
 
 /// What a scene's probes depend on, the labels of methods among it: they stand in the record.
 pub(super) fn probes(spec: &Spec, of: &PlannedScene) -> String {
     format!("{} {:?} {:?}", scene(of), spec.reference.truth, spec.sweep.methods)
+}
+
+/// What the budgets of a scene's errors depend on: what its probes do, and its reference.
+pub(super) fn budget(spec: &Spec, of: &PlannedScene, reference: &Film) -> String {
+    format!("{} {:?} {}", probes(spec, of), spec.budget, reference.digest())
 }
 
 /// What a prefilter depends on.

@@ -2,6 +2,7 @@
 
 mod archive;
 pub mod author;
+mod budget;
 mod collect;
 mod event;
 mod keys;

@@ -1,6 +1,7 @@
 //! The runner: works through the scenes of an experiment, keeps what is done, and takes up what an
 //! earlier run kept.
 
+mod budget;
 mod part;
 mod records;
 mod tell;
@@ -23,7 +24,8 @@ use super::store::{Store, StoreError};
 use super::work::Work;
 use crate::light::environment::{self, EnvironmentError};
 use crate::scene::{
-    Current, Exposure, Failure, Halt, LoadError, Prefilter, ReferenceImage, Stagehand, Watch,
+    Current, Exposure, Failure, Halt, LoadError, Prefilter, ReferenceImage, Replicates, Stagehand,
+    Watch,
 };
 
 /// How a run ended, if not in an error.
@@ -177,9 +179,11 @@ impl Run<'_> {
         (self.watch)(RunEvent::Scene { slug, part: None, number, of });
         self.left = self.work.scene(scene);
         self.take_up(scene);
+        self.take_up_budgets(scene);
         self.stage.world.insert_resource(Current(scene.entity));
         let done = self.complete(scene) || self.work_at(scene)?;
         if done {
+            self.stage.world.entity_mut(scene.entity).remove::<Replicates>();
             self.let_go(scene);
             // Trials that a method refused.
             self.advance(self.left, true);
@@ -242,7 +246,15 @@ impl Run<'_> {
             return (what, self.work.prefilter(scene, method));
         }
         if world.get::<ReferenceImage>(scene.entity).is_none() {
-            return ("converging the reference".to_owned(), self.work.replicate());
+            let further = world
+                .get::<Replicates>(scene.entity)
+                .is_some_and(|so_far| so_far.0.replicates() >= self.spec.reference.replicates);
+            let what = if further {
+                "sampling the reference further, to tell methods apart"
+            } else {
+                "converging the reference"
+            };
+            return (what.to_owned(), if further { 0.0 } else { self.work.replicate() });
         }
         let taken = |trial: &PlannedTrial| {
             world.get::<Prefilter>(scene.prefilters[trial.method]).is_some_and(|p| p.0.is_ok())
@@ -254,6 +266,7 @@ impl Run<'_> {
                 let label = &self.spec.sweep.methods[trial.method].label;
                 (format!("rendering {label} at {} spp", trial.spp), self.work.trial(trial))
             }
+            None if self.wants_budgets(scene) => ("sharing errors out".to_owned(), 0.0),
             None => ("measuring".to_owned(), 0.0),
         }
     }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::archive::{Archive, Record, film_name};
 use super::results::{ProbedMethod, Score};
 use crate::file::link_whole;
-use crate::render::{Film, FilmError};
+use crate::render::{Film, FilmError, Tally};
 use crate::scene::Shelf;
 
 /// The folder of an experiment's results.
@@ -48,24 +48,32 @@ pub enum StoreError {
     Program(std::io::Error),
 }
 
-/// A reference as a record.
+/// What of a reference is kept beside its image, so that it can be sampled further.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceRecord {
-    /// Samples a pixel.
-    pub spp: u32,
-    /// Its own error.
-    pub rmse: f64,
-    /// The mean standard error of its pixels.
-    pub mean_error: f64,
+    /// Its replicates.
+    pub tally: Tally,
+}
+
+/// That a scene's reference needs no further replicates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SettledRecord {
+    /// How many it has.
+    pub replicates: u32,
 }
 
 /// A trial as a record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialRecord {
-    /// Its scores.
-    pub scores: Vec<Score>,
     /// CPU seconds of its rendering.
     pub cpu_secs: f64,
+}
+
+/// A trial's scores against one reference, as a record.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScoresRecord {
+    /// By metric.
+    pub scores: Vec<Score>,
 }
 
 /// A prefilter as a record: what it cost, or why it was refused.

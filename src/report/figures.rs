@@ -10,7 +10,7 @@ use super::png;
 use super::scale::texels;
 use super::sheet::{self, Frames};
 
-use super::{curves, disc};
+use super::{budget, curves, disc};
 use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo, TrialResult};
 
 /// The figures of a report.
@@ -22,6 +22,8 @@ pub struct Figures {
     settings: Vec<SettingFigures>,
     /// Figures of each scene.
     scenes: Vec<SceneFigures>,
+    /// Budgets of errors, if any were drawn up.
+    budget: Option<budget::Section>,
     /// The textures' pictures, in their order.
     textures: Vec<Option<String>>,
 }
@@ -71,6 +73,7 @@ impl Figures {
                 .par_iter()
                 .map(|scene| scene_figures(results, scene, comparison.spp))
                 .collect(),
+            budget: budget::Section::of(&comparison),
             textures: results.textures.iter().map(texture_picture).collect(),
         }
     }
@@ -79,7 +82,8 @@ impl Figures {
     pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
         let settings = self.settings.iter().flat_map(|s| &s.figures);
         let scenes = self.scenes.iter().flat_map(|s| std::iter::once(&s.sheet).chain(&s.probes));
-        let all = self.overall.iter().chain(settings).chain(scenes);
+        let budgets = self.budget.iter().flat_map(budget::Section::figures);
+        let all = self.overall.iter().chain(settings).chain(scenes).chain(budgets);
         all.map(|figure| (figure.file.as_str(), figure.png.as_slice()))
     }
 }

@@ -3,12 +3,14 @@
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 14] = [
+const TEMPLATES: [(&str, &str); 16] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
     ("report.md", include_str!("templates/report.md")),
     ("report.html", include_str!("templates/report.html")),
+    ("budget.md", include_str!("templates/budget.md")),
+    ("budget.html", include_str!("templates/budget.html")),
     ("cards.md", include_str!("templates/cards.md")),
     ("cards.html", include_str!("templates/cards.html")),
     ("motion.md", include_str!("templates/motion.md")),
