@@ -44,11 +44,13 @@ mod polar;
 mod ranking;
 mod scale;
 mod sheet;
+mod source;
 mod split;
 mod tables;
 mod template;
 mod tidy;
 mod tone;
+mod viewer;
 mod words;
 
 #[cfg(test)]

@@ -30,12 +30,14 @@ pub const COLUMNS: [&str; 16] = [
 ];
 
 /// One figure.
-struct Row<'a> {
+pub(super) struct Row<'a> {
     key: &'a SceneKey,
-    method: &'a str,
+    /// The method's label, or `reference`.
+    pub method: &'a str,
     /// `None` for what has no samples: a distribution.
-    spp: Option<u32>,
-    metric: &'a str,
+    pub spp: Option<u32>,
+    /// Which figure it is.
+    pub metric: &'a str,
     value: f64,
     interval: Option<[f64; 2]>,
 }
@@ -99,7 +101,7 @@ fn rows(results: &Results) -> impl Iterator<Item = Row<'_>> {
 }
 
 /// The reference's own error and mean first, then trials, then distributions.
-fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
+pub(super) fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
     reference_rows(scene).into_iter().chain(trial_rows(scene)).chain(probe_rows(scene))
 }
 
