@@ -13,8 +13,8 @@ use common::{assert_same, output, repository};
 const EXPERIMENT: &str = r#"
 seed = 3
 [image]
-width = 12
-height = 8
+width = 8
+height = 6
 [reference]
 spp = 16
 replicates = 2
@@ -23,15 +23,15 @@ texture = ["weave", "hills"]
 method = ["unfiltered", "averaged"]
 spp = [1]
 unfiltered_spp = [1]
-texels_per_pixel = [2.0, 5.0, 9.0]
+texels_per_pixel = [2.0, 5.0]
 [texture.weave]
 pattern = "twill"
-width = 16
-height = 16
+width = 8
+height = 8
 [texture.hills]
 pattern = "gaussian"
-width = 16
-height = 16
+width = 8
+height = 8
 "#;
 
 /// The program `snakemake`: that of target/workflow-venv, or the one on the PATH.
