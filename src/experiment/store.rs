@@ -177,9 +177,12 @@ impl Store {
     /// If it cannot be written.
     pub fn keep_film(&self, scene: &str, name: &str, film: &Film) -> Result<String, StoreError> {
         let image = film_name(film);
-        let path = self.archive.film_path(&image);
-        make_parent(&path)?;
-        film.write_exr(&path)?;
+        // Made again to the same bits, because its record was gone: the file stays.
+        if self.archive.film(&image).is_none() {
+            let path = self.archive.film_path(&image);
+            make_parent(&path)?;
+            film.write_exr(&path)?;
+        }
         self.show(scene, name, &image)?;
         Ok(image)
     }
