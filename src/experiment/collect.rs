@@ -173,14 +173,19 @@ pub(super) fn probe_records(
 
 /// Scores with names that can be written.
 pub(super) fn named_scores(scores: &Scores) -> Vec<Score> {
-    let named =
-        |&(metric, value): &(&str, f64)| Score { metric: metric.to_owned(), value, interval: None };
+    let named = |&(metric, value, interval): &metric::Scored| Score {
+        metric: metric.to_owned(),
+        value,
+        interval,
+    };
     scores.0.iter().map(named).collect()
 }
 
 /// Scores read back, for the metrics that still exist.
 pub(super) fn known_scores(scores: &[Score]) -> Scores {
-    let known = |score: &Score| metric::find(&score.metric).map(|found| (found.name, score.value));
+    let known = |score: &Score| {
+        metric::find(&score.metric).map(|found| (found.name, score.value, score.interval))
+    };
     Scores(scores.iter().filter_map(known).collect())
 }
 

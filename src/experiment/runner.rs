@@ -2,6 +2,7 @@
 //! earlier run kept.
 
 mod budget;
+mod part;
 mod records;
 mod tell;
 
@@ -12,6 +13,7 @@ use std::time::Instant;
 use bevy_ecs::prelude::Entity;
 
 pub use super::event::{RunEvent, Watcher, unwatched};
+pub use part::{missing, run_units, units};
 
 use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
 use super::collect::collect;
@@ -66,16 +68,7 @@ pub enum RunError {
 /// Only one run may work in a folder at a time: hold its [`super::lock::Lock`].
 pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<Outcome, RunError> {
     let start = Instant::now();
-    let work = Work::of(spec, texels(spec)?);
-    if let LightSpec::Environment { source: EnvironmentSource::File { path }, .. } = &spec.light {
-        environment::inspect(path)?;
-    }
-    let mut stage = Stagehand::new(spec.seed, halt.clone());
-    let of_part = Arc::clone(watch);
-    stage.world.insert_resource(Watch(Arc::new(move |part| of_part(RunEvent::Partly { part }))));
-    let plan = author(spec, &mut stage);
-    let store = Store::open(folder, &keys::common(spec))?;
-    stage.world.insert_resource(store.shelf());
+    let Desk { mut stage, plan, store, work } = Desk::lay(spec, folder, halt, watch)?;
     let mut run =
         Run { spec, plan: &plan, store: &store, stage: &mut stage, watch, work, left: 0.0 };
     run.announce();
@@ -91,6 +84,32 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
         ..Costs::default()
     };
     Ok(Outcome::Finished(Box::new(collect(spec, &plan, &store, &mut stage, costs))))
+}
+
+/// All that a run works with.
+struct Desk {
+    stage: Stagehand,
+    plan: Plan,
+    store: Store,
+    work: Work,
+}
+
+impl Desk {
+    /// Reads and lays out all that an experiment needs.
+    fn lay(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<Self, RunError> {
+        let work = Work::of(spec, texels(spec)?);
+        if let LightSpec::Environment { source: EnvironmentSource::File { path }, .. } = &spec.light
+        {
+            environment::inspect(path)?;
+        }
+        let mut stage = Stagehand::new(spec.seed, halt.clone());
+        let watch = Arc::clone(watch);
+        stage.world.insert_resource(Watch(Arc::new(move |part| watch(RunEvent::Partly { part }))));
+        let plan = author(spec, &mut stage);
+        let store = Store::open(folder, &keys::common(spec))?;
+        stage.world.insert_resource(store.shelf());
+        Ok(Self { stage, plan, store, work })
+    }
 }
 
 /// How much there is to an experiment.

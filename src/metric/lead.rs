@@ -1,5 +1,6 @@
 //! Who is nearer to a reference that is itself an estimate.
 
+use super::mse_gap;
 use crate::render::Film;
 
 /// Standard errors on either side of an estimate that hold the truth 95 times in 100 (the normal distribution's).
@@ -31,27 +32,21 @@ impl Lead {
     /// The lead of `near` over `far`, before a reference with the variance of each of its pixels; `gap` is the least
     /// relative difference of root mean square errors worth reporting, such as 0.01.
     ///
-    /// Both are measured against the same noise. Of A, B and R̂ = R + e, mean (B − R̂)² − mean (A − R̂)² =
-    /// mean (B − A)(B + A − 2 R̂), whose noise is −2 mean (B − A) e: its variance is 4 Σ (B − A)² v / N². The square
-    /// errors themselves are too large by the mean of v, which is no part of the difference and is taken off what
-    /// `gap` is relative to.
+    /// The square errors are too large by the mean of the variances, both by the same (see [`mse_gap`]); that is taken
+    /// off what `gap` is relative to.
     ///
     /// # Panics
     /// If the sizes differ: a programming error.
     pub fn of(near: &Film, far: &Film, reference: &Film, variance: &[f64], gap: f64) -> Self {
-        let pixels = reference.pixels().len();
-        let sizes = [near.pixels().len(), far.pixels().len(), variance.len()];
-        assert_eq!(sizes, [pixels; 3], "pixels");
-        let n = pixels as f64;
-        let (mut difference, mut noise, mut square) = (0.0, 0.0, 0.0);
-        for (i, v) in variance.iter().enumerate() {
-            let [a, b, r] = [near, far, reference].map(|film| f64::from(film.pixels()[i]));
-            difference += (b - a) * (b + a - 2.0 * r);
-            noise += (b - a) * (b - a) * v;
-            square += (a - r) * (a - r) - v;
-        }
-        let smallest = ((1.0 + gap) * (1.0 + gap) - 1.0) * (square / n).max(0.0);
-        Self { difference: difference / n, error: 2.0 * noise.sqrt() / n, smallest }
+        let (difference, error) = mse_gap(far, near, reference, variance);
+        let pixels = near.pixels().iter().zip(reference.pixels()).zip(variance);
+        let square = |((a, r), v): ((&f32, &f32), &f64)| {
+            let error = f64::from(*a) - f64::from(*r);
+            error * error - v
+        };
+        let square = pixels.map(square).sum::<f64>() / variance.len() as f64;
+        let smallest = ((1.0 + gap) * (1.0 + gap) - 1.0) * square.max(0.0);
+        Self { difference, error, smallest }
     }
 
     /// What can be said of it.

@@ -15,7 +15,7 @@ use crate::render::{Converged, Film};
 pub struct Settled;
 
 pub(super) fn plugin(schedule: &mut Schedule) {
-    schedule.add_systems(settle.in_set(Stage::Measure).after(super::measure::score));
+    schedule.add_systems(settle.in_set(Stage::Measure).after(super::measure::probe));
 }
 
 type Trials<'w, 's> =

@@ -35,7 +35,7 @@ impl Run<'_> {
 
     /// Puts into the world the scene's reference of so many replicates, if an earlier run had it.
     fn take_up_reference(&mut self, scene: &PlannedScene, replicates: u32) -> bool {
-        let depends = keys::reference(scene, replicates);
+        let depends = keys::reference(self.spec, scene, replicates);
         let find = |name| self.store.find_with_film(&scene.slug, name, &depends);
         let errors: Option<((), Film)> =
             self.store.find_with_film(&scene.slug, keys::REFERENCE_ERROR, &depends);
@@ -169,7 +169,7 @@ impl Run<'_> {
         else {
             return Ok(());
         };
-        let (slug, depends) = (&scene.slug, keys::reference(scene, tally.replicates()));
+        let (slug, depends) = (&scene.slug, keys::reference(self.spec, scene, tally.replicates()));
         let record = ReferenceRecord { tally: tally.clone() };
         self.store.keep_with_film(slug, keys::REFERENCE, &depends, &record, &image.0.film)?;
         self.store.keep_with_film(slug, keys::REFERENCE_ERROR, &depends, &(), &image.0.error())?;
