@@ -285,9 +285,9 @@ mod tests {
         Ok(exhibit)
     }
 
-    const ROW: Row =
+    pub(super) const ROW: Row =
         Row { name: "bumps-f1", title: "Bumps", parts: &[], parameters: &[], secs: 0.0, make };
-    const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
+    pub(super) const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
 
     fn quiet(_: &Task) -> Result<Exhibit, super::super::Halted> {
         Ok(ROW.exhibit())
@@ -296,7 +296,7 @@ mod tests {
     const QUIET: Paper =
         Paper { name: "bumps-1990", citation: "Bumps", rows: &[Row { make: quiet, ..ROW }] };
 
-    fn spec() -> PaperSpec {
+    pub(super) fn spec() -> PaperSpec {
         PaperSpec {
             name: "bumps".into(),
             title: "Bumps".into(),
@@ -309,6 +309,16 @@ mod tests {
         }
     }
 
+    /// A sweep of two scenes.
+    pub(super) fn part(name: &str) -> Spec {
+        const PART: &str = r#"
+            image = { width = 8, height = 8 }
+            reference = { spp = 16, replicates = 2 }
+            sweep = { texture = ["flat"], method = ["unfiltered"], spp = [1], unfiltered_spp = [1], texels_per_pixel = [1.0, 2.0] }
+        "#;
+        Spec { name: name.into(), ..Spec::parse(PART, Path::new("x.toml")).unwrap() }
+    }
+
     fn exhibits(spec: &PaperSpec, folder: &Path) -> Vec<Exhibit> {
         match gather_rows(&PAPER, spec, folder, &Halt::default(), &unwatched()).unwrap() {
             Gathered::Finished(found) => found.evidence.exhibits,
@@ -318,15 +328,6 @@ mod tests {
 
     #[test]
     fn watchers_hear_of_parts_and_rows_as_of_one_run() {
-        const PART: &str = r#"
-            image = { width = 8, height = 8 }
-            reference = { spp = 16, replicates = 2 }
-            sweep = { texture = ["flat"], method = ["unfiltered"], spp = [1], unfiltered_spp = [1], texels_per_pixel = [1.0, 2.0] }
-        "#;
-        let part = |name: &str| Spec {
-            name: name.into(),
-            ..Spec::parse(PART, Path::new("x.toml")).unwrap()
-        };
         let spec = PaperSpec { parts: vec![part("one"), part("two")], ..spec() };
         let told = Arc::new(Mutex::new(Vec::new()));
         let telling = Arc::clone(&told);

@@ -21,6 +21,7 @@ pub(super) const REFERENCE_ERROR: &str = "reference-error";
 pub(super) const SETTLED: &str = "settled";
 /// Name of a scene's probes among its records.
 pub(super) const PROBES: &str = "probes";
+
 /// Name of the budgets of a scene's errors among its records.
 pub(super) const BUDGET: &str = "budget";
 

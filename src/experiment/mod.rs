@@ -16,3 +16,5 @@ pub mod share;
 pub mod spec;
 pub mod store;
 mod work;
+
+pub use archive::STATE;

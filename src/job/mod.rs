@@ -4,6 +4,7 @@
 mod control;
 mod find;
 mod shards;
+mod verify;
 
 #[cfg(test)]
 mod tests;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 pub use control::{Control, Gate};
 pub use find::{DEFAULT, FOLDER, FindError, is_image, load, load_sweep, locate, names, names_in};
 pub use shards::{MergeError, SHARDS, merge, run_shard, shard_folder};
+pub use verify::{Difference, FileNow, Verified, VerifyError, differences, reports_in, verify};
 
 use crate::evidence::{Evidence, Findings, Gathered, gather};
 use crate::experiment::lock::{Lock, LockError};

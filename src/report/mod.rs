@@ -32,6 +32,7 @@ mod figures;
 mod files;
 mod fit_plot;
 mod font;
+mod format;
 mod grid;
 mod lobe_sheet;
 mod mark;
@@ -43,11 +44,13 @@ mod polar;
 mod ranking;
 mod scale;
 mod sheet;
+mod source;
 mod split;
 mod tables;
 mod template;
 mod tidy;
 mod tone;
+mod viewer;
 mod words;
 
 #[cfg(test)]
@@ -60,6 +63,7 @@ pub use disc::cell_of_normal;
 pub use evidence::write_evidence;
 pub use files::ReportError;
 pub use fit_plot::fit_plot;
+pub use format::{FORMAT, Newer, check_format};
 pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};

@@ -30,12 +30,14 @@ pub const COLUMNS: [&str; 16] = [
 ];
 
 /// One figure.
-struct Row<'a> {
+pub(super) struct Row<'a> {
     key: &'a SceneKey,
-    method: &'a str,
+    /// The method's label, or `reference`.
+    pub method: &'a str,
     /// `None` for what has no samples: a distribution.
-    spp: Option<u32>,
-    metric: &'a str,
+    pub spp: Option<u32>,
+    /// Which figure it is.
+    pub metric: &'a str,
     value: f64,
     interval: Option<[f64; 2]>,
 }
@@ -99,7 +101,7 @@ fn rows(results: &Results) -> impl Iterator<Item = Row<'_>> {
 }
 
 /// The reference's own error and mean first, then trials, then distributions.
-fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
+pub(super) fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
     reference_rows(scene).into_iter().chain(trial_rows(scene)).chain(probe_rows(scene))
 }
 
@@ -151,6 +153,7 @@ fn probe_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
 
 #[derive(Serialize)]
 struct Document<'a> {
+    format: u32,
     experiment: &'a str,
     title: &'a str,
     question: &'a str,
@@ -196,6 +199,10 @@ struct Figure<'a> {
     spp: Option<u32>,
     metric: &'a str,
     value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -215,6 +222,7 @@ struct ProbedJson<'a> {
 /// `metrics.json`: the same figures scene by scene, with refusals, probes, methods and the spec.
 pub fn json(results: &Results) -> Vec<u8> {
     let document = Document {
+        format: super::FORMAT,
         experiment: &results.name,
         title: &results.title,
         question: &results.question,
@@ -253,6 +261,8 @@ fn scene_json(scene: &SceneResult) -> SceneJson<'_> {
         spp: row.spp,
         metric: row.metric,
         value: row.value,
+        low: row.interval.map(|[low, _]| low),
+        high: row.interval.map(|[_, high]| high),
     });
     SceneJson {
         slug: &scene.slug,

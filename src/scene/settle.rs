@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 
 use super::{
     Current, Exposure, Prefilter, Progress, ReferenceImage, ReferencePlan, Scores, Spp, Stage,
-    TrialOf,
+    TrialOf, measure,
 };
 use crate::metric::Lead;
 use crate::render::{Converged, Film};
@@ -15,7 +15,7 @@ use crate::render::{Converged, Film};
 pub struct Settled;
 
 pub(super) fn plugin(schedule: &mut Schedule) {
-    schedule.add_systems(settle.in_set(Stage::Measure).after(super::measure::probe));
+    schedule.add_systems(settle.in_set(Stage::Measure).after(measure::score).after(measure::probe));
 }
 
 type Trials<'w, 's> =

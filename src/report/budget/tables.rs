@@ -33,7 +33,12 @@ fn row(total: &Total) -> Vec<Cell> {
         } else {
             let alone = (balance.whole - entry.alone) / balance.whole;
             let best = greatest == Some(entry.part);
-            Cell { text: percent(*share), aside: format!("alone {}", percent(alone)), best }
+            Cell {
+                text: percent(*share),
+                aside: format!("alone {}", percent(alone)),
+                best,
+                ..Cell::default()
+            }
         });
     }
     cells.push(shares.last().map_or_else(Cell::default, |noise| percent(*noise).into()));
