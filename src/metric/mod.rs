@@ -16,7 +16,7 @@ mod ssim;
 mod uncertain;
 mod viewing;
 
-pub use distribution::total_variation;
+pub use distribution::{EVEN, SLICES, kl_divergence, total_variation, wasserstein};
 pub use equivalent::{Equivalent, SpeedUp, equivalent_samples};
 pub use flicker::{Flicker, Step, flicker_map};
 pub use flip::{Exposures, exposures};

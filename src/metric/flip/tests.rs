@@ -33,11 +33,11 @@ fn it_is_a_symmetric_difference_from_0_to_1() {
     let found = difference(&a, &r, PPD).unwrap();
     assert!(found.values.iter().all(|value| (0.0..=1.0).contains(value)));
     // Black against white: |ΔL*| = 100 everywhere, no features.
-    let (black, white) = (picture(1, |..| 0.0), picture(1, |..| 1.0));
+    let (black, white) = (picture(1, |_, _, _| 0.0), picture(1, |_, _, _| 1.0));
     let expected = colour_difference([0.0; 3], [100.0, 0.0, 0.0], greatest_difference());
     assert!((mean(&black, &white) - expected).abs() < 1e-12);
     // Green against blue is the greatest difference.
-    let pure = |k: usize| picture(3, move |c, ..| f64::from(u8::from(c == k)));
+    let pure = |k: usize| picture(3, move |c, _, _| f64::from(u8::from(c == k)));
     assert!((mean(&pure(1), &pure(2)) - 1.0).abs() < 1e-6);
 }
 
@@ -45,7 +45,7 @@ fn it_is_a_symmetric_difference_from_0_to_1() {
 fn a_farther_viewer_sees_less() {
     // A checkerboard of pixels against its mean.
     let fine = picture(1, |_, x, y| ((x + y) % 2) as f64);
-    let even = picture(1, |..| 0.5);
+    let even = picture(1, |_, _, _| 0.5);
     let seen = |ppd: f64| difference(&fine, &even, ppd).unwrap().mean();
     assert!(seen(20.0) > seen(40.0) && seen(40.0) > seen(80.0));
 }
