@@ -56,7 +56,7 @@ fn coding(coding: Coding) -> &'static str {
 
 /// A line a metric: name, value, what it tells and its formula.
 fn print(scores: &[(&str, f64)], out: &mut dyn Write) -> std::io::Result<()> {
-    for metric in metric::entries() {
+    for metric in metric::entries().iter().filter(|m| m.swept) {
         let value = scores.iter().find(|(name, _)| *name == metric.name);
         let value = value.map_or("—".to_owned(), |(_, value)| format!("{value:.6}"));
         writeln!(out, "{:<17} {value:>12}  {}", metric.name, metric.meaning)?;

@@ -7,21 +7,31 @@
 mod distribution;
 mod equivalent;
 mod flicker;
+mod lead;
 mod pixelwise;
+mod registry;
 mod ssim;
+mod uncertain;
 
 pub use distribution::total_variation;
 pub use equivalent::{Equivalent, SpeedUp, equivalent_samples};
 pub use flicker::{Flicker, Step, flicker_map};
+pub use lead::{Lead, Verdict, Z};
 pub use pixelwise::{DARK, HIGHLIGHT};
+pub use registry::{entries, find};
 pub use ssim::{K1, K2, SIGMA, WINDOW, ssim};
+pub use uncertain::{Uncertain, mse_gap};
+
+use rayon::prelude::*;
 
 use crate::render::Film;
+use pixelwise::Pixelwise;
 
 /// A measure of how far an image is from a reference.
 #[derive(Clone, Copy, Debug)]
 pub struct Metric {
-    /// Its name in the `metric` column of `metrics.csv`.
+    /// Its name in the `metric` column of `metrics.csv`. A variant's name is that of its metric, a colon and
+    /// whose it is: `relmse:pbrt`.
     pub name: &'static str,
     /// What it tells, in a few words.
     pub meaning: &'static str,
@@ -29,7 +39,61 @@ pub struct Metric {
     pub formula: &'static str,
     /// Which values are good.
     pub best: Best,
-    measure: fn(&[Film], &[Film]) -> Option<f64>,
+    /// Whether the trials of experiments are scored by it.
+    pub swept: bool,
+    measure: Measure,
+}
+
+/// How a metric is computed.
+#[derive(Clone, Copy, Debug)]
+enum Measure {
+    /// Pixel by pixel.
+    Pixelwise(Pixelwise),
+    /// As the mean of values that neighbourhoods have.
+    Local(fn(&[Film], &[Film]) -> Option<Field>),
+}
+
+/// Values on a grid of pixels, row by row, in double precision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Values across.
+    pub width: usize,
+    /// All values, row by row from the top.
+    pub values: Vec<f64>,
+}
+
+impl Field {
+    /// The mean of all values; NaN of none.
+    pub fn mean(&self) -> f64 {
+        self.values.iter().sum::<f64>() / self.values.len() as f64
+    }
+}
+
+/// The mean of several channels' fields of one size; `None` of none.
+fn mean_field(channels: &[Field]) -> Option<Field> {
+    let (first, more) = channels.split_first()?;
+    let mut sum = first.clone();
+    for field in more {
+        sum.values.iter_mut().zip(&field.values).for_each(|(sum, value)| *sum += value);
+    }
+    sum.values.iter_mut().for_each(|sum| *sum /= channels.len() as f64);
+    Some(sum)
+}
+
+/// A score, and where the score against a reference without noise lies 95 times in 100, if that is known.
+pub type Scored = (&'static str, f64, Option<[f64; 2]>);
+
+/// The scores of a rendering with their intervals; see [`scores_with_errors`].
+///
+/// # Panics
+/// If the films or the variances differ in size: a programming error.
+pub fn scores_with_intervals(test: &Film, reference: &Film, variance: &[f64]) -> Vec<Scored> {
+    let least = |name| match find(name).map(|metric| metric.best) {
+        Some(Best::Highest) | None => f64::NEG_INFINITY,
+        Some(Best::Lowest | Best::One) => 0.0,
+    };
+    let found = scores_with_errors(test, reference, variance).into_iter();
+    found.map(|(name, of)| (name, of.value, Some(of.interval(least(name))))).collect()
 }
 
 /// Which values of a metric are good.
@@ -43,64 +107,41 @@ pub enum Best {
     One,
 }
 
-/// Every metric, in the order tables show them.
-pub fn entries() -> [Metric; 6] {
-    [
-        Metric {
-            name: "rmse",
-            meaning: "root mean square error",
-            formula: "√ mean (A − R)²",
-            best: Best::Lowest,
-            measure: pixelwise::rmse,
-        },
-        Metric {
-            name: "relmse",
-            meaning: "mean square error relative to the reference",
-            formula: "mean (A − R)² / (R² + ε), ε = 0.01 (mean R)²",
-            best: Best::Lowest,
-            measure: pixelwise::relmse,
-        },
-        Metric {
-            name: "psnr",
-            meaning: "peak signal-to-noise ratio in decibels",
-            formula: "10 log₁₀ (L² / mean (A − R)²), L = max R",
-            best: Best::Highest,
-            measure: pixelwise::psnr,
-        },
-        Metric {
-            name: "ssim",
-            meaning: "structural similarity (Wang et al. 2004), 1 for equal images",
-            formula: "mean over windows of (2 μ_A μ_R + C₁)(2 σ_AR + C₂) / ((μ_A² + μ_R² + C₁)(σ_A² + σ_R² + C₂)); \
-                      Gaussian window of 11 × 11 pixels, σ = 1.5, inside the image; C₁ = (0.01 L)², C₂ = (0.03 L)², \
-                      L = max R",
-            best: Best::Highest,
-            measure: structure,
-        },
-        Metric {
-            name: "energy",
-            meaning: "the share of the reference's light that the image holds",
-            formula: "Σ A / Σ R",
-            best: Best::One,
-            measure: pixelwise::energy,
-        },
-        Metric {
-            name: "highlight_energy",
-            meaning: "the share of the reference's light that the image holds in its highlights",
-            formula: "Σ A / Σ R over the pixels with R > 0.5 max R",
-            best: Best::One,
-            measure: pixelwise::highlight_energy,
-        },
-    ]
+impl Metric {
+    /// Its value for an image of one channel or more beside its reference. `None` if it has no finite value: SSIM
+    /// of an image under 11 pixels, PSNR of an image equal to its reference, ratios to a black reference.
+    ///
+    /// # Panics
+    /// If the images differ in size or number of channels: a programming error; [`same_shape`] checks images of the
+    /// user's.
+    pub fn value(&self, test: &[Film], reference: &[Film]) -> Option<f64> {
+        if let Err(error) = same_shape(test, reference) {
+            panic!("{error}");
+        }
+        let value = match self.measure {
+            Measure::Pixelwise(metric) => metric.value(test, reference),
+            Measure::Local(field) => field(test, reference).map(|field| field.mean()),
+        };
+        value.filter(|value| value.is_finite())
+    }
+
+    /// Its value for a rendering, and what the reference's noise makes of it; `variance` has the variance of each
+    /// pixel of the reference, row by row. `None` as of [`Metric::value`].
+    ///
+    /// # Panics
+    /// If the films or the variances differ in size: a programming error.
+    pub fn uncertain(&self, test: &Film, reference: &Film, variance: &[f64]) -> Option<Uncertain> {
+        assert_eq!(variance.len(), reference.pixels().len(), "a variance for each pixel");
+        let found = match self.measure {
+            Measure::Pixelwise(metric) => uncertain::pixelwise(&metric, test, reference, variance),
+            Measure::Local(field) => uncertain::local(field, test, reference, variance),
+        };
+        found.filter(|found| found.value.is_finite())
+    }
 }
 
-/// The metric of this name.
-pub fn find(name: &str) -> Option<Metric> {
-    entries().into_iter().find(|metric| metric.name == name)
-}
-
-/// The scores of a rendering against its reference, by metric name, in the order of [`entries`]. A
-/// score that has no finite value is left out: SSIM of an image under 11 pixels, PSNR of an image equal
-/// to its reference, ratios to a black reference.
+/// The scores of a rendering against its reference, by metric name, in the order of [`entries`]: of the metrics
+/// that experiments use. A score that has no finite value is left out; see [`Metric::value`].
 ///
 /// # Panics
 /// If the films differ in size: a programming error; [`same_shape`] checks images of the user's.
@@ -113,11 +154,27 @@ pub fn scores(test: &Film, reference: &Film) -> Vec<(&'static str, f64)> {
 /// # Panics
 /// If the images differ in size or number of channels.
 pub fn channel_scores(test: &[Film], reference: &[Film]) -> Vec<(&'static str, f64)> {
-    if let Err(error) = same_shape(test, reference) {
-        panic!("{error}");
-    }
-    let score = |metric: Metric| Some((metric.name, (metric.measure)(test, reference)?));
-    entries().into_iter().filter_map(score).filter(|(_, value)| value.is_finite()).collect()
+    each(|metric| metric.value(test, reference))
+}
+
+/// The scores of a rendering as of [`scores`], each with what the reference's noise makes of it; `variance` has the
+/// variance of each pixel of the reference, row by row.
+///
+/// # Panics
+/// If the films or the variances differ in size: a programming error.
+pub fn scores_with_errors(
+    test: &Film,
+    reference: &Film,
+    variance: &[f64],
+) -> Vec<(&'static str, Uncertain)> {
+    each(|metric| metric.uncertain(test, reference, variance))
+}
+
+/// What each metric of experiments has to say, all at once and in their order.
+fn each<T: Send>(of: impl Fn(&'static Metric) -> Option<T> + Sync) -> Vec<(&'static str, T)> {
+    let swept: Vec<&Metric> = entries().iter().filter(|metric| metric.swept).collect();
+    let found: Vec<Option<T>> = swept.par_iter().map(|metric| of(metric)).collect();
+    swept.iter().zip(found).filter_map(|(metric, found)| Some((metric.name, found?))).collect()
 }
 
 /// Why two images cannot be compared.
@@ -149,21 +206,6 @@ pub fn same_shape(test: &[Film], reference: &[Film]) -> Result<(), ShapeMismatch
         [side(Film::width), side(Film::height), image.len()]
     };
     Err(ShapeMismatch { test: shape(test), reference: shape(reference) })
-}
-
-/// The data range L: the reference's greatest pixel, or 1 if it has no light.
-fn data_range(reference: &[Film]) -> f64 {
-    let greatest = pixelwise::greatest(reference);
-    if greatest > 0.0 { greatest } else { 1.0 }
-}
-
-/// The mean SSIM of the channels.
-fn structure(test: &[Film], reference: &[Film]) -> Option<f64> {
-    let range = data_range(reference);
-    let channels: Option<Vec<f64>> =
-        test.iter().zip(reference).map(|(test, reference)| ssim(test, reference, range)).collect();
-    let channels = channels?;
-    Some(channels.iter().sum::<f64>() / channels.len() as f64)
 }
 
 #[cfg(test)]

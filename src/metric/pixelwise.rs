@@ -1,64 +1,202 @@
-//! Measures that are sums over pixels, in double precision and in the order of the pixels.
+//! Metrics that are means over pixels, as data: what a pixel adds, what that is divided by, and what is made of
+//! the mean. Sums are in double precision and in the order of the pixels.
 
-use super::data_range;
 use crate::render::Film;
 
 /// ε of `relmse` as a part of the squared mean of the reference. It keeps dark pixels from deciding,
-/// and scales with the light, so that the measure does not depend on exposure.
+/// and scales with the light, so that the measure does not depend on exposure. ε of `mape` and `smape`, which
+/// are not squared, is its root times the mean.
 pub const DARK: f64 = 0.01;
 
 /// A pixel is of the highlight if the reference exceeds this part of its greatest pixel there.
 pub const HIGHLIGHT: f64 = 0.5;
 
+/// What a pixel adds, from A, R and the metric's level.
+pub(super) type Term = fn(a: f64, r: f64, level: f64) -> f64;
+
+/// A metric that looks at one pixel at a time: outer(Σ term / Σ over).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pixelwise {
+    /// What a pixel adds.
+    pub term: Term,
+    /// What the sum is divided by, as a sum too: [`one`] for a mean.
+    pub over: Term,
+    /// A number drawn from the reference as a whole: an ε, a threshold, a peak.
+    pub level: Level,
+    /// What is made of the mean.
+    pub outer: Outer,
+}
+
+/// A number that a metric draws from the reference as a whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Level {
+    /// This number, whatever the reference.
+    Fixed(f64),
+    /// So many times the reference's mean.
+    OfMean(f64),
+    /// So many times the square of the reference's mean.
+    OfSquaredMean(f64),
+    /// So many times the reference's greatest pixel.
+    OfGreatest(f64),
+    /// The reference's greatest pixel, or 1 if it has no light.
+    Range,
+}
+
+impl Level {
+    fn of(self, reference: &[Film]) -> f64 {
+        match self {
+            Self::Fixed(number) => number,
+            Self::OfMean(part) => part * mean(reference),
+            Self::OfSquaredMean(part) => {
+                let mean = mean(reference);
+                part * mean * mean
+            }
+            Self::OfGreatest(part) => part * greatest(reference),
+            Self::Range => data_range(reference),
+        }
+    }
+}
+
+/// What is made of the mean m.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outer {
+    /// m.
+    Mean,
+    /// √m.
+    Root,
+    /// 10 log₁₀ (L² / m), L the level.
+    Decibels,
+}
+
+impl Outer {
+    /// Of a mean at least 0 where a root or a logarithm is taken: less counts as 0.
+    pub(super) fn of(self, mean: f64, level: f64) -> f64 {
+        match self {
+            Self::Mean => mean,
+            Self::Root => mean.max(0.0).sqrt(),
+            Self::Decibels => 10.0 * libm::log10(level * level / mean.max(0.0)),
+        }
+    }
+}
+
+impl Pixelwise {
+    /// outer(mean of `term`), with nothing drawn from the reference.
+    pub(super) const fn mean(term: Term) -> Self {
+        Self { term, over: one, level: Level::Fixed(0.0), outer: Outer::Mean }
+    }
+
+    pub(super) const fn level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    pub(super) const fn outer(self, outer: Outer) -> Self {
+        Self { outer, ..self }
+    }
+
+    pub(super) const fn over(self, over: Term) -> Self {
+        Self { over, ..self }
+    }
+
+    /// Its level for a reference.
+    pub(super) fn level_of(&self, reference: &[Film]) -> f64 {
+        self.level.of(reference)
+    }
+
+    /// Its value; `None` if there is nothing to divide by.
+    pub(super) fn value(&self, test: &[Film], reference: &[Film]) -> Option<f64> {
+        let level = self.level_of(reference);
+        let sums = pairs(test, reference).fold((0.0, 0.0), |(term, over), (a, r)| {
+            (term + (self.term)(a, r, level), over + (self.over)(a, r, level))
+        });
+        (sums.1 > 0.0).then(|| self.outer.of(sums.0 / sums.1, level))
+    }
+}
+
+/// 1: a mean over pixels.
+pub(super) fn one(_: f64, _: f64, _: f64) -> f64 {
+    1.0
+}
+
+/// |A − R|
+pub(super) fn absolute(a: f64, r: f64, _: f64) -> f64 {
+    (a - r).abs()
+}
+
+/// (A − R)²
+pub(super) fn squared(a: f64, r: f64, _: f64) -> f64 {
+    (a - r) * (a - r)
+}
+
+/// (A − R)² / (R² + ε)
+pub(super) fn relative_squared(a: f64, r: f64, epsilon: f64) -> f64 {
+    (a - r) * (a - r) / (r * r + epsilon)
+}
+
+/// (A − R)² / (R + ε)²
+pub(super) fn shifted_squared(a: f64, r: f64, epsilon: f64) -> f64 {
+    let over = r + epsilon;
+    (a - r) * (a - r) / (over * over)
+}
+
+/// |A − R| / (|R| + ε)
+pub(super) fn relative(a: f64, r: f64, epsilon: f64) -> f64 {
+    (a - r).abs() / (r.abs() + epsilon)
+}
+
+/// |A − R| / (R + ε)
+pub(super) fn relative_signed(a: f64, r: f64, epsilon: f64) -> f64 {
+    (a - r).abs() / (r + epsilon)
+}
+
+/// 2 |A − R| / (|A| + |R| + 2 ε); 0 of two equal pixels.
+pub(super) fn symmetric(a: f64, r: f64, epsilon: f64) -> f64 {
+    if a == r { 0.0 } else { 2.0 * (a - r).abs() / (a.abs() + r.abs() + 2.0 * epsilon) }
+}
+
+/// A
+pub(super) fn light(a: f64, _: f64, _: f64) -> f64 {
+    a
+}
+
+/// R
+pub(super) fn true_light(_: f64, r: f64, _: f64) -> f64 {
+    r
+}
+
+/// A where R exceeds the level.
+pub(super) fn bright(a: f64, r: f64, threshold: f64) -> f64 {
+    if r > threshold { a } else { 0.0 }
+}
+
+/// R where it exceeds the level.
+pub(super) fn truly_bright(_: f64, r: f64, threshold: f64) -> f64 {
+    if r > threshold { r } else { 0.0 }
+}
+
 /// Every pixel of the image and the reference, channel after channel.
-fn pairs<'a>(test: &'a [Film], reference: &'a [Film]) -> impl Iterator<Item = (f64, f64)> + 'a {
+pub(super) fn pairs<'a>(
+    test: &'a [Film],
+    reference: &'a [Film],
+) -> impl Iterator<Item = (f64, f64)> + 'a {
     let films = test.iter().zip(reference);
     let pixels = films.flat_map(|(test, reference)| test.pixels().iter().zip(reference.pixels()));
     pixels.map(|(a, r)| (f64::from(*a), f64::from(*r)))
 }
 
-/// The mean of `f(A, R)` over all pixels; `None` without pixels.
-fn mean(test: &[Film], reference: &[Film], f: impl Fn(f64, f64) -> f64) -> Option<f64> {
-    let count: usize = test.iter().map(|film| film.pixels().len()).sum();
-    let sum: f64 = pairs(test, reference).map(|(a, r)| f(a, r)).sum();
-    (count > 0).then(|| sum / count as f64)
-}
-
-fn mse(test: &[Film], reference: &[Film]) -> Option<f64> {
-    mean(test, reference, |a, r| (a - r) * (a - r))
+/// The mean over all pixels and channels; 0 without pixels.
+fn mean(image: &[Film]) -> f64 {
+    let pixels = image.iter().flat_map(Film::pixels);
+    let (sum, count) = pixels.fold((0.0, 0usize), |(sum, n), &p| (sum + f64::from(p), n + 1));
+    sum / count.max(1) as f64
 }
 
 /// The greatest pixel; 0 if there is none above.
-pub(super) fn greatest(image: &[Film]) -> f64 {
+fn greatest(image: &[Film]) -> f64 {
     image.iter().flat_map(Film::pixels).fold(0.0, |most, &pixel| f64::from(pixel).max(most))
 }
 
-pub(super) fn rmse(test: &[Film], reference: &[Film]) -> Option<f64> {
-    mse(test, reference).map(f64::sqrt)
-}
-
-pub(super) fn relmse(test: &[Film], reference: &[Film]) -> Option<f64> {
-    let level = mean(test, reference, |_, r| r)?;
-    let epsilon = DARK * level * level;
-    mean(test, reference, |a, r| (a - r) * (a - r) / (r * r + epsilon))
-}
-
-pub(super) fn psnr(test: &[Film], reference: &[Film]) -> Option<f64> {
-    let range = data_range(reference);
-    mse(test, reference).map(|mse| 10.0 * libm::log10(range * range / mse))
-}
-
-pub(super) fn energy(test: &[Film], reference: &[Film]) -> Option<f64> {
-    ratio(pairs(test, reference))
-}
-
-pub(super) fn highlight_energy(test: &[Film], reference: &[Film]) -> Option<f64> {
-    let threshold = HIGHLIGHT * greatest(reference);
-    ratio(pairs(test, reference).filter(|(_, r)| *r > threshold))
-}
-
-/// Σ A / Σ R.
-fn ratio(pairs: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
-    let (a, r) = pairs.fold((0.0, 0.0), |(a, r), pair| (a + pair.0, r + pair.1));
-    (r > 0.0).then(|| a / r)
+/// The data range L: the reference's greatest pixel, or 1 if it has no light.
+pub(super) fn data_range(reference: &[Film]) -> f64 {
+    let greatest = greatest(reference);
+    if greatest > 0.0 { greatest } else { 1.0 }
 }

@@ -1,6 +1,8 @@
 //! Structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004, Image Quality Assessment: From Error
 //! Visibility to Structural Similarity, eq. 13).
 
+use super::pixelwise::data_range;
+use super::{Field, mean_field};
 use crate::geometry::elementary::exp64;
 use crate::render::Film;
 
@@ -20,6 +22,22 @@ pub const K2: f64 = 0.03;
 /// # Panics
 /// If the films differ in size: a programming error.
 pub fn ssim(test: &Film, reference: &Film, range: f64) -> Option<f64> {
+    Some(field(test, reference, range)?.mean())
+}
+
+/// The similarity in each window, the mean of the channels, with the reference's greatest pixel as data range.
+pub(super) fn of_channels(test: &[Film], reference: &[Film]) -> Option<Field> {
+    with_range(test, reference, data_range(reference))
+}
+
+fn with_range(test: &[Film], reference: &[Film], range: f64) -> Option<Field> {
+    let channels: Option<Vec<Field>> =
+        test.iter().zip(reference).map(|(test, reference)| field(test, reference, range)).collect();
+    mean_field(&channels?)
+}
+
+/// The similarity in each window that lies inside; see [`ssim`].
+fn field(test: &Film, reference: &Film, range: f64) -> Option<Field> {
     let (width, height) = (test.width(), test.height());
     assert_eq!((width, height), (reference.width(), reference.height()), "shape of films");
     if width < WINDOW || height < WINDOW {
@@ -37,16 +55,15 @@ pub fn ssim(test: &Film, reference: &Film, range: f64) -> Option<f64> {
     let mean_rr = blurred(|_, r| r * r);
     let mean_ar = blurred(|a, r| a * r);
     let (c1, c2) = ((K1 * range) * (K1 * range), (K2 * range) * (K2 * range));
-    let sum: f64 = (0..mean_a.len())
-        .map(|i| {
-            let (a, r) = (mean_a[i], mean_r[i]);
-            let (var_a, var_r) = (mean_aa[i] - a * a, mean_rr[i] - r * r);
-            let covariance = mean_ar[i] - a * r;
-            let alike = (2.0 * a * r + c1) * (2.0 * covariance + c2);
-            alike / ((a * a + r * r + c1) * (var_a + var_r + c2))
-        })
-        .sum();
-    Some(sum / mean_a.len() as f64)
+    let at = |i: usize| {
+        let (a, r) = (mean_a[i], mean_r[i]);
+        let (var_a, var_r) = (mean_aa[i] - a * a, mean_rr[i] - r * r);
+        let covariance = mean_ar[i] - a * r;
+        let alike = (2.0 * a * r + c1) * (2.0 * covariance + c2);
+        alike / ((a * a + r * r + c1) * (var_a + var_r + c2))
+    };
+    let values = (0..mean_a.len()).map(at).collect();
+    Some(Field { width: width - WINDOW + 1, values })
 }
 
 /// The window along one axis; it sums to 1.

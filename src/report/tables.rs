@@ -145,9 +145,9 @@ pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &Scale) -> Ta
 fn error(comparison: &Comparison, contest: &Contest, method: &MethodInfo) -> Cell {
     match contest.standing(&method.label) {
         Some(standing) => Cell {
-            text: phrase::number(standing.error),
+            text: phrase::number_within(standing.error, standing.interval),
             aside: standing.worth.map_or_else(String::new, phrase::samples_short),
-            best: standing.best,
+            best: standing.best(),
             ..Cell::default()
         }
         .from_rows(source::worth(comparison.results, contest.scene, &method.label)),

@@ -4,12 +4,14 @@ use super::{colour, viewer};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 27] = [
+const TEMPLATES: [(&str, &str); 30] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
     ("report.md", include_str!("templates/report.md")),
     ("report.html", include_str!("templates/report.html")),
+    ("budget.md", include_str!("templates/budget.md")),
+    ("budget.html", include_str!("templates/budget.html")),
     ("cards.md", include_str!("templates/cards.md")),
     ("cards.html", include_str!("templates/cards.html")),
     ("motion.md", include_str!("templates/motion.md")),
@@ -32,6 +34,7 @@ const TEMPLATES: [(&str, &str); 27] = [
     ("script/flip.js", include_str!("templates/script/flip.js")),
     ("script/main.js", include_str!("templates/script/main.js")),
     ("costs.md", include_str!("templates/costs.md")),
+    ("costs.html", include_str!("templates/costs.html")),
 ];
 
 /// Fills in a template by its name.

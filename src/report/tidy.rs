@@ -7,10 +7,10 @@ use crate::experiment::results::{
     mean_distances,
 };
 use crate::experiment::sequence::Sequence;
-use crate::metric::Step;
+use crate::metric::{Step, Z};
 
 /// The columns of `metrics.csv`, in order.
-pub const COLUMNS: [&str; 14] = [
+pub const COLUMNS: [&str; 16] = [
     "texture",
     "surface",
     "light",
@@ -25,6 +25,8 @@ pub const COLUMNS: [&str; 14] = [
     "spp",
     "metric",
     "value",
+    "low",
+    "high",
 ];
 
 /// One figure.
@@ -37,6 +39,7 @@ pub(super) struct Row<'a> {
     /// Which figure it is.
     pub metric: &'a str,
     value: f64,
+    interval: Option<[f64; 2]>,
 }
 
 /// `metrics.csv`.
@@ -58,6 +61,8 @@ pub fn csv(results: &Results) -> Vec<u8> {
             row.spp.map_or_else(String::new, |spp| spp.to_string()),
             row.metric.to_owned(),
             round_trip(row.value),
+            row.interval.map_or_else(String::new, |[low, _]| round_trip(low)),
+            row.interval.map_or_else(String::new, |[_, high]| round_trip(high)),
         ]
     });
     table(COLUMNS, cells)
@@ -102,8 +107,21 @@ pub(super) fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
 
 fn reference_rows(scene: &SceneResult) -> [Row<'_>; 2] {
     let spp = Some(scene.reference.spp);
-    let row = |metric, value| Row { key: &scene.key, method: "reference", spp, metric, value };
-    [row("rmse", scene.reference.rmse), row("mean_radiance", super::contest::mean_radiance(scene))]
+    let row = |metric, value, interval| Row {
+        key: &scene.key,
+        method: "reference",
+        spp,
+        metric,
+        value,
+        interval,
+    };
+    let mean = super::contest::mean_radiance(scene);
+    // Pixels are independent: the variance of their mean is the mean of their variances over their number.
+    let error = Z * scene.reference.rmse / (scene.reference.variance.len() as f64).sqrt();
+    [
+        row("rmse", scene.reference.rmse, None),
+        row("mean_radiance", mean, Some([mean - error, mean + error])),
+    ]
 }
 
 fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
@@ -114,6 +132,7 @@ fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
             spp: Some(trial.spp),
             metric: &score.metric,
             value: score.value,
+            interval: score.interval,
         })
     })
 }
@@ -121,12 +140,20 @@ fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
 /// One row a method: the mean over the scene's probes.
 fn probe_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
     let distances = mean_distances(scene.probes.iter().map(|probe| probe.methods.as_slice()));
-    let row = |(method, value)| Row { key: &scene.key, method, spp: None, metric: "ndf_l1", value };
+    let row = |(method, value)| Row {
+        key: &scene.key,
+        method,
+        spp: None,
+        metric: "ndf_l1",
+        value,
+        interval: None,
+    };
     distances.into_iter().map(row)
 }
 
 #[derive(Serialize)]
 struct Document<'a> {
+    format: u32,
     experiment: &'a str,
     title: &'a str,
     question: &'a str,
@@ -172,6 +199,10 @@ struct Figure<'a> {
     spp: Option<u32>,
     metric: &'a str,
     value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -191,6 +222,7 @@ struct ProbedJson<'a> {
 /// `metrics.json`: the same figures scene by scene, with refusals, probes, methods and the spec.
 pub fn json(results: &Results) -> Vec<u8> {
     let document = Document {
+        format: super::FORMAT,
         experiment: &results.name,
         title: &results.title,
         question: &results.question,
@@ -229,6 +261,8 @@ fn scene_json(scene: &SceneResult) -> SceneJson<'_> {
         spp: row.spp,
         metric: row.metric,
         value: row.value,
+        low: row.interval.map(|[low, _]| low),
+        high: row.interval.map(|[_, high]| high),
     });
     SceneJson {
         slug: &scene.slug,
