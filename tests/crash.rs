@@ -83,10 +83,14 @@ fn is_kept(path: &Path) -> bool {
     !path.file_name().unwrap().to_string_lossy().starts_with(".writing-")
 }
 
-/// The records that are there, and when they were written.
-fn records_whole(results: &Path) -> Vec<(PathBuf, std::time::SystemTime)> {
-    let all = written(&results.join(".state/records"));
-    all.into_iter().filter(|(path, _)| is_kept(path)).collect()
+/// The records of trials, scores and probes, what each is called, and when it was written. (Records of prefilters are
+/// written whenever one is built, and those of a reference again if the kill came between its two films.)
+fn records_whole(results: &Path) -> Vec<(PathBuf, String, std::time::SystemTime)> {
+    let time = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
+    let all = records(results).into_iter().filter(|(path, of)| {
+        is_kept(path) && ["spp", "-scores", "/probes"].iter().any(|end| of.ends_with(end))
+    });
+    all.map(|(path, of)| (path.clone(), of, time(&path))).collect()
 }
 
 fn said(done: &Output) -> String {
@@ -213,7 +217,8 @@ fn told_of_no_room(run: &Output) {
     assert_eq!(run.status.code(), Some(1), "{said}");
     let errors: Vec<_> = said.lines().filter(|line| !line.starts_with("note: ")).collect();
     assert_eq!(errors.len(), 1, "{said}");
-    assert!(errors[0].starts_with("error: cannot write ") && errors[0].contains("trial"), "{said}");
+    assert!(errors[0].starts_with("error: ") && errors[0].contains("cannot write"), "{said}");
+    assert!(errors[0].contains("reports/trial"), "{said}");
     assert!(!said.contains(".writing-"), "{said}");
 }
 

@@ -93,6 +93,7 @@ fn gather_rows(
         exhibits.push(exhibit);
         row_secs.push((row.name.to_owned(), secs));
     }
+    store.clear_images();
     let evidence = Evidence {
         name: spec.name.clone(),
         title: spec.title.clone(),
