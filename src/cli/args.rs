@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ArgGroup, Parser, Subcommand};
 
+use crate::experiment::share::Share;
 use crate::job;
 use crate::metric;
 use crate::tui::picture::{Colours, Pictures};
@@ -35,6 +36,10 @@ pub struct Args {
 pub enum Command {
     /// Run experiments and write their reports.
     Run(RunArgs),
+    /// Put the shards of an experiment together and write its report.
+    Merge(MergeArgs),
+    /// Run experiments again and compare with their reports, byte for byte.
+    Verify(VerifyArgs),
     /// Open the terminal runner: watch runs, explore a scene, compare results.
     Tui(TuiArgs),
     /// Show the experiments, methods, patterns, surfaces and environments there are.
@@ -57,6 +62,7 @@ pub enum Command {
   wrinkle run                         the default experiment, `highlight`
   wrinkle run quick highlight         two experiments, one after the other
   wrinkle run my/experiment.toml --out results --threads 8
+  wrinkle run highlight --shard 2/3   the second of three parts; `wrinkle merge` puts them together
 
 Results are kept as they come. Interrupt with Ctrl-C; the same command goes on where it stopped.")]
 pub struct RunArgs {
@@ -69,7 +75,59 @@ pub struct RunArgs {
     /// Threads to use; all cores if not given. Results are the same at any number.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Do only the K-th of N parts of about the same work, and write no report: the parts may run at once, on several
+    /// machines, with the same program.
+    #[arg(long, value_name = "K/N")]
+    pub shard: Option<Share>,
     /// Print a summary as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `merge`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle merge highlight             the shards in reports/highlight/
+  wrinkle merge highlight --from node1/reports --from node2/reports
+
+The report is the same, byte for byte, as that of a run that was not shared; only costs differ. A shard that died
+is simply run again.")]
+pub struct MergeArgs {
+    /// The experiment: name of a file in experiments/ without `.toml`, or path of such a file.
+    #[arg(value_name = "NAME|FILE", default_value = job::DEFAULT)]
+    pub experiment: String,
+    /// Folder that shards are in; may be given more than once. That of reports if not given.
+    #[arg(long, value_name = "DIR")]
+    pub from: Vec<PathBuf>,
+    /// Folder that reports go to, one folder an experiment.
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// Print a summary as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `verify`.
+#[derive(Debug, ArgGroup)]
+#[command(after_help = "Examples:
+  wrinkle verify                      every report in reports/
+  wrinkle verify quick                one of them
+  wrinkle verify my/experiment.toml --out results
+
+The experiment that is run is the one that stands in the report, afresh, in a temporary folder (TMPDIR). All files
+are compared but those of costs. Exit code 0: all the same; 1: something differs.")]
+pub struct VerifyArgs {
+    /// Reports: names of folders in the folder of reports, or paths of experiment files, whose reports are there; all
+    /// reports if none is named.
+    #[arg(value_name = "NAME|FILE")]
+    pub reports: Vec<String>,
+    /// Folder that reports are in.
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    pub out: PathBuf,
+    /// Threads to use; all cores if not given. Results are the same at any number.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Print what was found as JSON.
     #[arg(long)]
     pub json: bool,
 }

@@ -7,6 +7,7 @@ mod exit;
 mod fit;
 mod list;
 mod lobes;
+mod merge;
 mod output;
 mod progress;
 mod render;
@@ -14,6 +15,7 @@ mod run;
 mod summary;
 mod surface;
 mod tui;
+mod verify;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -37,6 +39,8 @@ pub fn main() -> ExitCode {
 fn obey(args: Args, out: &mut dyn Write) -> Result<Exit, Failure> {
     match args.command {
         Some(Command::Run(args)) => run::run(&args, out),
+        Some(Command::Merge(args)) => merge::merge(&args, out),
+        Some(Command::Verify(args)) => verify::verify(&args, out),
         Some(Command::Tui(args)) => tui::tui(&args),
         Some(Command::List(args)) => list::list(&args, out),
         Some(Command::Render(args)) => render::render(&args, out),

@@ -105,6 +105,6 @@ impl Summary {
 }
 
 /// "1 scene", "2 scenes".
-fn counted(count: usize, what: &str) -> String {
+pub(super) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -1,16 +1,20 @@
 //! Gathering a paper's evidence: its sweeps one after the other, then its rows; each finished piece is
 //! kept, and taken up by a later run.
 
+mod shared;
+
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+pub use shared::{gather_share, missing};
+
 use super::{Drawing, Evidence, Exhibit, FinishedPart, Panel, Paper, Row, Task};
 use crate::experiment::runner::{self, Extent, Outcome, RunError, RunEvent, Watcher};
 use crate::experiment::spec::{PaperSpec, RowSpec};
-use crate::experiment::store::Store;
+use crate::experiment::store::{Store, StoreError};
 use crate::method::Progress;
 use crate::render::Film;
 use crate::scene::Halt;
@@ -79,7 +83,7 @@ fn gather_rows(
             Outcome::Halted => return Ok(Gathered::Halted),
         }
     }
-    let store = Store::open(folder, &format!("{} {}", spec.paper, spec.seed))?;
+    let store = store(spec, folder)?;
     let (mut exhibits, mut row_secs) = (Vec::new(), Vec::new());
     for (number, (row, told)) in (before + 1..).zip(paper.rows.iter().zip(&spec.rows)) {
         let slug = row.name.to_owned();
@@ -101,6 +105,11 @@ fn gather_rows(
     };
     let secs = start.elapsed().as_secs_f64();
     Ok(Gathered::Finished(Box::new(Findings { evidence, parts, row_secs, secs })))
+}
+
+/// Where rows are kept.
+fn store(spec: &PaperSpec, folder: &Path) -> Result<Store, StoreError> {
+    Store::open(folder, &format!("{} {}", spec.paper, spec.seed))
 }
 
 /// Tells `watch` what a part tells, as of one of several: `before` of `all` scenes were other parts'.
@@ -162,7 +171,7 @@ impl Progress for Onlooker<'_> {
 struct Record {
     exhibit: Exhibit,
     secs: f64,
-    /// Digests of the films, in the order of the panels.
+    /// What the films are found by, in the order of the panels.
     films: Vec<String>,
 }
 
@@ -213,10 +222,9 @@ impl Gathering<'_> {
     fn take_up(&self) -> Option<(Exhibit, f64)> {
         let record: Record = self.store.find(ROWS, self.row.name, &self.depends())?;
         let mut exhibit = record.exhibit;
-        let mut digests = record.films.into_iter();
+        let mut films = record.films.into_iter();
         for panel in panels_mut(&mut exhibit) {
-            let film = Film::read_exr(&self.store.image_path(self.row.name, &panel.name)).ok()?;
-            (film.digest() == digests.next()?).then_some(())?;
+            let film = self.store.find_film(self.row.name, &panel.name, &films.next()?)?;
             panel.film = Some(Arc::new(film));
         }
         Some((exhibit, record.secs))
@@ -225,8 +233,7 @@ impl Gathering<'_> {
     fn keep(&self, exhibit: &Exhibit, secs: f64) -> Result<(), RunError> {
         let mut films = Vec::new();
         for (name, film) in exhibit.films() {
-            self.store.keep_film(self.row.name, name, film)?;
-            films.push(film.digest());
+            films.push(self.store.keep_film(self.row.name, name, film)?);
         }
         let record = Record { exhibit: exhibit.clone(), secs, films };
         Ok(self.store.keep(ROWS, self.row.name, &self.depends(), &record)?)
@@ -278,9 +285,9 @@ mod tests {
         Ok(exhibit)
     }
 
-    const ROW: Row =
+    pub(super) const ROW: Row =
         Row { name: "bumps-f1", title: "Bumps", parts: &[], parameters: &[], secs: 0.0, make };
-    const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
+    pub(super) const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
 
     fn quiet(_: &Task) -> Result<Exhibit, super::super::Halted> {
         Ok(ROW.exhibit())
@@ -289,7 +296,7 @@ mod tests {
     const QUIET: Paper =
         Paper { name: "bumps-1990", citation: "Bumps", rows: &[Row { make: quiet, ..ROW }] };
 
-    fn spec() -> PaperSpec {
+    pub(super) fn spec() -> PaperSpec {
         PaperSpec {
             name: "bumps".into(),
             title: "Bumps".into(),
@@ -302,6 +309,16 @@ mod tests {
         }
     }
 
+    /// A sweep of two scenes.
+    pub(super) fn part(name: &str) -> Spec {
+        const PART: &str = r#"
+            image = { width = 8, height = 8 }
+            reference = { spp = 16, replicates = 2 }
+            sweep = { texture = ["flat"], method = ["unfiltered"], spp = [1], unfiltered_spp = [1], texels_per_pixel = [1.0, 2.0] }
+        "#;
+        Spec { name: name.into(), ..Spec::parse(PART, Path::new("x.toml")).unwrap() }
+    }
+
     fn exhibits(spec: &PaperSpec, folder: &Path) -> Vec<Exhibit> {
         match gather_rows(&PAPER, spec, folder, &Halt::default(), &unwatched()).unwrap() {
             Gathered::Finished(found) => found.evidence.exhibits,
@@ -311,15 +328,6 @@ mod tests {
 
     #[test]
     fn watchers_hear_of_parts_and_rows_as_of_one_run() {
-        const PART: &str = r#"
-            image = { width = 8, height = 8 }
-            reference = { spp = 16, replicates = 2 }
-            sweep = { texture = ["flat"], method = ["unfiltered"], spp = [1], unfiltered_spp = [1], texels_per_pixel = [1.0, 2.0] }
-        "#;
-        let part = |name: &str| Spec {
-            name: name.into(),
-            ..Spec::parse(PART, Path::new("x.toml")).unwrap()
-        };
         let spec = PaperSpec { parts: vec![part("one"), part("two")], ..spec() };
         let told = Arc::new(Mutex::new(Vec::new()));
         let telling = Arc::clone(&told);
@@ -352,12 +360,17 @@ mod tests {
         let first = exhibits(&spec(), folder.path());
         assert_eq!(exhibits(&spec(), folder.path()), first);
         assert_eq!(MADE.load(Ordering::Relaxed), 1, "the second run takes the row up");
-        // Another seed, or a film that is not the record's: made again.
+        // Another seed: made again; the first seed again: still there.
         exhibits(&PaperSpec { seed: 2, ..spec() }, folder.path());
+        assert_eq!(exhibits(&spec(), folder.path()), first);
         assert_eq!(MADE.load(Ordering::Relaxed), 2);
-        let film = Film::new(2, 1, vec![0.0, 0.0]);
-        film.write_exr(&folder.path().join("images/bumps-f1/only.exr")).unwrap();
-        assert_eq!(exhibits(&PaperSpec { seed: 2, ..spec() }, folder.path()), first);
+        // Another film under its film's name: the name is put right. A film that is no more what it was: made again.
+        let image = folder.path().join("images/bumps-f1/only.exr");
+        Film::new(2, 1, vec![0.0, 0.0]).write_exr(&image).unwrap();
+        assert_eq!(exhibits(&spec(), folder.path()), first);
+        assert_eq!(MADE.load(Ordering::Relaxed), 2);
+        std::fs::write(&image, b"scribbled into the film itself").unwrap();
+        assert_eq!(exhibits(&spec(), folder.path()), first);
         assert_eq!(MADE.load(Ordering::Relaxed), 3);
     }
 }

@@ -24,7 +24,7 @@ pub use figure::{
     Axis, Chart, Disc, Drawing, Field, Figure, Images, LobePlot, Panel, Reflection, Series, Sketch,
     Stroke,
 };
-pub use gather::{Findings, Gathered, gather};
+pub use gather::{Findings, Gathered, gather, gather_share, missing};
 pub use paper::{FinishedPart, Halted, Paper, Row, Task, find, keys, papers};
 pub use table::{Cell, Table};
 use trials::{rmse, trials};

@@ -18,9 +18,9 @@ use crate::lobe::BaseLobe;
 use crate::pattern::{self, Bumps};
 use crate::render::direction;
 use crate::scene::{
-    BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material, PrefilterOf,
-    ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy, SurfaceOrigin,
-    SurfaceShape, Texture, TiledBefore, Tiling, TrialOf,
+    BudgetPlan, BumpSource, Kindled, LightOrigin, LightSource, LoadError, LookupBy, Material,
+    PrefilterOf, ProbePlan, ReferencePlan, SameAs, SceneOf, Shaped, Spp, Stagehand, Strategy,
+    SurfaceOrigin, SurfaceShape, Texture, TiledBefore, Tiling, TrialOf,
 };
 use crate::surface::{
     Cylinder, MainDirection, Mesh, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame,
@@ -129,6 +129,7 @@ pub fn author(spec: &Spec, stage: &mut Stagehand) -> Plan {
                 let of = SceneOf { texture, surface, camera, light, material };
                 let sequence = slug(spec, index, &base, placement);
                 let scene = spawn_scene(world, spec, of, placement);
+                plan_budget(world, spec, scene, &prefilters);
                 plan.scenes.push(PlannedScene {
                     entity: scene,
                     texture: index,
@@ -156,15 +157,25 @@ fn spawn_scene(world: &mut World, spec: &Spec, of: SceneOf, placement: &Placemen
     let centre = [spec.image.width / 2, spec.image.height / 2];
     // Beside the centre, a pixel halfway to the image's corner, where the highlight fades.
     let aside = [spec.image.width / 4, spec.image.height / 4];
-    let ReferenceSpec { spp, replicates, truth } = spec.reference;
-    let still = ReferencePlan { spp, replicates, truth, first: 1 };
+    let ReferenceSpec { replicates, truth, gap, .. } = spec.reference;
+    let (spp, most) = (spec.reference.replicate_spp(), spec.reference.most_replicates());
+    let still = ReferencePlan { spp, replicates, most, gap, truth, first: 1 };
     let Some(Frame { number, .. }) = placement.frame else {
         return world.spawn((of, placement.tiling, still, ProbePlan(vec![centre, aside]))).id();
     };
     // No two frames' references share a random number, so that the noise of their difference is known.
-    let reference = ReferencePlan { first: 1 + number * replicates, ..still };
+    let reference = ReferencePlan { first: 1 + number * most, ..still };
     let before = TiledBefore(placement.first);
     world.spawn((of, placement.tiling, before, reference, ProbePlan(vec![centre]))).id()
+}
+
+/// Asks for the budgets that the spec wants of a scene.
+fn plan_budget(world: &mut World, spec: &Spec, scene: Entity, prefilters: &[Entity]) {
+    if let Some(budget) = &spec.budget {
+        let prefilters = budget.methods.iter().map(|&method| prefilters[method]).collect();
+        let plan = BudgetPlan { prefilters, points: budget.points };
+        world.entity_mut(scene).insert(plan);
+    }
 }
 
 /// One prefilter a method; those that differ in their lookup alone are built once.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::author::{Plan, PlannedScene, load};
+use super::budget::budgets;
 use super::keys;
 use super::results::{
     Costs, MethodInfo, Peak, Picture, PrefilterCost, Probe, ProbedMethod, Reference, RefusalInfo,
@@ -82,14 +83,17 @@ pub(super) fn collect(
             sequence: scene.sequence.clone(),
             reference: Reference {
                 film: Arc::new(image.0.film.clone()),
+                variance: image.0.variance.clone(),
                 spp: image.0.spp,
                 rmse: image.0.rmse,
                 mean_error: image.0.mean_error,
                 truth: spec.reference.truth,
+                gap: spec.reference.gap,
             },
             trials,
             refusals,
             probes: probes.into_iter().map(probe).collect(),
+            budgets: budgets(spec, scene, &stage.world),
         });
     }
     let results = Results {
@@ -171,13 +175,19 @@ pub(super) fn probe_records(
 
 /// Scores with names that can be written.
 pub(super) fn named_scores(scores: &Scores) -> Vec<Score> {
-    let named = |&(metric, value): &(&str, f64)| Score { metric: metric.to_owned(), value };
+    let named = |&(metric, value, interval): &metric::Scored| Score {
+        metric: metric.to_owned(),
+        value,
+        interval,
+    };
     scores.0.iter().map(named).collect()
 }
 
 /// Scores read back, for the metrics that still exist.
 pub(super) fn known_scores(scores: &[Score]) -> Scores {
-    let known = |score: &Score| metric::find(&score.metric).map(|found| (found.name, score.value));
+    let known = |score: &Score| {
+        metric::find(&score.metric).map(|found| (found.name, score.value, score.interval))
+    };
     Scores(scores.iter().filter_map(known).collect())
 }
 

@@ -1,80 +1,149 @@
 //! Names of records, and what each depends on.
 //!
 //! A record is worth taking up only if nothing it depends on has changed. What that is, as text, goes
-//! into its digest (see [`super::store`]).
+//! into its address (see [`super::store`]). Names are no part of it.
+
+use std::path::Path;
 
 use super::author::{PlannedScene, PlannedTrial};
-use super::spec::{EnvironmentSource, LightSpec, Spec, SurfaceSpec, TextureSource, TextureSpec};
+use super::spec::{
+    EnvironmentSource, LightSpec, MethodSpec, ReferenceSpec, Spec, SurfaceSpec, TextureSource,
+    TextureSpec,
+};
+use crate::render::{Converged, Film};
 use crate::surface::files_of;
 
 /// Name of a scene's reference among its records.
 pub(super) const REFERENCE: &str = "reference";
+/// Name of the errors of its pixels.
+pub(super) const REFERENCE_ERROR: &str = "reference-error";
+/// Name of the record that it is as good as it needs to be.
+pub(super) const SETTLED: &str = "settled";
 /// Name of a scene's probes among its records.
 pub(super) const PROBES: &str = "probes";
 
-/// What is common to all scenes of an experiment.
+/// Name of the budgets of a scene's errors among its records.
+pub(super) const BUDGET: &str = "budget";
+
+/// What is common to all scenes of an experiment. (Where things stand in a first frame is how textures are laid in
+/// the others.)
 pub(super) fn common(spec: &Spec) -> String {
     format!(
-        "{:?} {} {:?} {} {:?} {:?} {}",
+        "{:?} {} {:?} {} {:?} {} {:?}",
         spec.image,
         surface(&spec.surface),
         spec.camera,
         light(&spec.light),
         spec.shading,
-        spec.reference,
-        spec.seed
+        spec.seed,
+        spec.motion.map(|motion| motion.pose(0))
     )
 }
 
-/// A surface, with the bytes of its model's files if it is one; see [`texture`].
+/// A surface: of a model, the bytes of its files, wherever they are; see [`texture`].
 fn surface(surface: &SurfaceSpec) -> String {
-    let mut hasher = blake3::Hasher::new();
-    for file in surface.model.iter().flat_map(|model| files_of(&model.path)) {
-        hasher.update(&std::fs::read(file).unwrap_or_default());
-    }
-    format!("{surface:?} {}", hasher.finalize().to_hex())
+    let SurfaceSpec { shape, axes, perturbation, model } = surface;
+    let model = model.as_ref().map(|model| {
+        let mut hasher = blake3::Hasher::new();
+        for file in files_of(&model.path) {
+            hasher.update(&std::fs::read(file).unwrap_or_default());
+        }
+        // A reader is chosen by the file's ending.
+        let kind = model.path.extension();
+        format!("{kind:?} {:?} {}", model.up, hasher.finalize().to_hex())
+    });
+    format!("{shape:?} {axes:?} {perturbation:?} {model:?}")
 }
 
-/// A light, with the bytes of its file if it has one; see [`texture`].
+/// A light: of a picture, the bytes of its file; see [`texture`].
 fn light(light: &LightSpec) -> String {
     match light {
-        LightSpec::Environment { source: EnvironmentSource::File { path }, .. } => {
-            let bytes = std::fs::read(path).unwrap_or_default();
-            format!("{light:?} {}", blake3::hash(&bytes).to_hex())
-        }
+        LightSpec::Environment {
+            source: EnvironmentSource::File { path },
+            rotation,
+            intensity,
+            filter,
+        } => format!("{} {rotation:?} {intensity:?} {filter:?}", contents(path)),
         _ => format!("{light:?}"),
     }
 }
 
-/// A texture, with the bytes of its file. (Of a file that cannot be read nothing is said here; reading
-/// it as a texture tells why.)
+/// A texture, whatever it is called: of an image, the bytes of its file, wherever that is. (Of a file that
+/// cannot be read nothing is said here; reading it as a texture tells why.)
 pub(super) fn texture(texture: &TextureSpec) -> String {
-    let bytes = match &texture.source {
-        TextureSource::File { path, .. } => std::fs::read(path).unwrap_or_default(),
-        TextureSource::Pattern { .. } => Vec::new(),
+    let TextureSpec { name: _, source, wrap, interpolation, repeat } = texture;
+    let source = match source {
+        TextureSource::File { path, written: _, reading } => {
+            format!("{} {reading:?}", contents(path))
+        }
+        TextureSource::Pattern { .. } => format!("{source:?}"),
     };
-    format!("{texture:?} {}", blake3::hash(&bytes).to_hex())
+    format!("{source} {wrap:?} {interpolation:?} {repeat}")
 }
 
-/// What a scene's reference depends on, beyond what is common.
-pub(super) fn scene(scene: &PlannedScene) -> String {
+/// The digest of a file, and its ending, by which a reader is chosen.
+fn contents(path: &Path) -> String {
+    let bytes = std::fs::read(path).unwrap_or_default();
+    format!("{:?} {}", path.extension(), blake3::hash(&bytes).to_hex())
+}
+
+/// A method, whatever it is called.
+fn method(method: &MethodSpec) -> String {
+    let MethodSpec { label: _, name, values, lookup } = method;
+    format!("{name} {values:?} {lookup:?}")
+}
+
+/// What all images of a scene depend on, beyond what is common.
+fn scene(scene: &PlannedScene) -> String {
     let PlannedScene { texture_key, base, tiling, distance, elevation, frame, .. } = scene;
     format!("{texture_key} {base:?} {tiling:?} {distance:?} {elevation:?} {frame:?}")
 }
 
-/// What a trial depends on.
-pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> String {
-    format!("{} {:?} {}", scene(of), spec.sweep.methods[trial.method], trial.spp)
+/// What a scene's reference of so many replicates depends on. (Frames take their random numbers one after another,
+/// each as many as it may need.)
+pub(super) fn reference(spec: &Spec, of: &PlannedScene, replicates: u32) -> String {
+    let ReferenceSpec { truth, most, .. } = spec.reference;
+    let (spp, most) = (spec.reference.replicate_spp(), of.frame.map(|_| most));
+    format!("{} {truth:?} {replicates} replicates of {spp} {most:?}", scene(of))
 }
 
-/// What a scene's probes depend on.
+/// What it depends on how many replicates a scene's reference needs: the trials it is to tell apart.
+pub(super) fn settled(spec: &Spec, of: &PlannedScene) -> String {
+    let ReferenceSpec { replicates, most, gap, .. } = spec.reference;
+    let trials: Vec<String> = of.trials.iter().map(|t| trial(spec, of, t)).collect();
+    format!("{} {most} {gap:?} {trials:?}", reference(spec, of, replicates))
+}
+
+/// What a trial's scores depend on: its film, and the reference with its errors.
+pub(super) fn scores(trial: &Film, reference: &Converged) -> String {
+    format!("{} {} {}", trial.digest(), reference.film.digest(), reference.error().digest())
+}
+
+/// Name of a trial's scores.
+pub(super) fn scores_name(spec: &Spec, trial: &PlannedTrial) -> String {
+    format!("{}-scores", trial_name(spec, trial))
+}
+
+/// What a trial depends on; its scores depend on the reference too.
+pub(super) fn trial(spec: &Spec, of: &PlannedScene, trial: &PlannedTrial) -> String {
+    let method = method(&spec.sweep.methods[trial.method]);
+    format!("{} {method} {}", scene(of), trial.spp)
+}
+
+/// What a scene's probes depend on, the labels of methods among it: they stand in the record.
 pub(super) fn probes(spec: &Spec, of: &PlannedScene) -> String {
-    format!("{} {:?}", scene(of), spec.sweep.methods)
+    format!("{} {:?} {:?}", scene(of), spec.reference.truth, spec.sweep.methods)
+}
+
+/// What the budgets of a scene's errors depend on: what its probes do, and its reference.
+pub(super) fn budget(spec: &Spec, of: &PlannedScene, reference: &Film) -> String {
+    format!("{} {:?} {}", probes(spec, of), spec.budget, reference.digest())
 }
 
 /// What a prefilter depends on.
-pub(super) fn prefilter(spec: &Spec, of: &PlannedScene, method: usize) -> String {
-    format!("{} {:?} {:?}", of.texture_key, of.base, spec.sweep.methods[method])
+pub(super) fn prefilter(spec: &Spec, of: &PlannedScene, index: usize) -> String {
+    let method = method(&spec.sweep.methods[index]);
+    format!("{} {:?} {method}", of.texture_key, of.base)
 }
 
 /// Name of a trial's record and image.

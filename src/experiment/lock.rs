@@ -3,6 +3,7 @@
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
+use super::archive::STATE;
 use super::store::StoreError;
 
 /// Holds a folder of results for one run, until it is dropped or the program ends in any way.
@@ -35,7 +36,7 @@ impl Lock {
     /// # Errors
     /// If another run has it or it cannot be written to.
     pub fn take(folder: &Path) -> Result<Self, LockError> {
-        let state = folder.join(".state");
+        let state = folder.join(STATE);
         let path = state.join("lock");
         let cannot = |path: &Path| {
             let path = path.to_owned();

@@ -1,6 +1,8 @@
 //! The runner: works through the scenes of an experiment, keeps what is done, and takes up what an
 //! earlier run kept.
 
+mod budget;
+mod part;
 mod records;
 mod tell;
 
@@ -11,6 +13,7 @@ use std::time::Instant;
 use bevy_ecs::prelude::Entity;
 
 pub use super::event::{RunEvent, Watcher, unwatched};
+pub use part::{missing, run_units, units};
 
 use super::author::{Plan, PlannedScene, PlannedTrial, author, load};
 use super::collect::collect;
@@ -21,7 +24,8 @@ use super::store::{Store, StoreError};
 use super::work::Work;
 use crate::light::environment::{self, EnvironmentError};
 use crate::scene::{
-    Current, Exposure, Failure, Halt, LoadError, Prefilter, ReferenceImage, Stagehand, Watch,
+    Current, Exposure, Failure, Halt, LoadError, Prefilter, ReferenceImage, Replicates, Stagehand,
+    Watch,
 };
 
 /// How a run ended, if not in an error.
@@ -64,16 +68,7 @@ pub enum RunError {
 /// Only one run may work in a folder at a time: hold its [`super::lock::Lock`].
 pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<Outcome, RunError> {
     let start = Instant::now();
-    let work = Work::of(spec, texels(spec)?);
-    if let LightSpec::Environment { source: EnvironmentSource::File { path }, .. } = &spec.light {
-        environment::inspect(path)?;
-    }
-    let mut stage = Stagehand::new(spec.seed, halt.clone());
-    let of_part = Arc::clone(watch);
-    stage.world.insert_resource(Watch(Arc::new(move |part| of_part(RunEvent::Partly { part }))));
-    let plan = author(spec, &mut stage);
-    let store = Store::open(folder, &keys::common(spec))?;
-    stage.world.insert_resource(store.shelf());
+    let Desk { mut stage, plan, store, work } = Desk::lay(spec, folder, halt, watch)?;
     let mut run =
         Run { spec, plan: &plan, store: &store, stage: &mut stage, watch, work, left: 0.0 };
     run.announce();
@@ -89,6 +84,32 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
         ..Costs::default()
     };
     Ok(Outcome::Finished(Box::new(collect(spec, &plan, &store, &mut stage, costs))))
+}
+
+/// All that a run works with.
+struct Desk {
+    stage: Stagehand,
+    plan: Plan,
+    store: Store,
+    work: Work,
+}
+
+impl Desk {
+    /// Reads and lays out all that an experiment needs.
+    fn lay(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<Self, RunError> {
+        let work = Work::of(spec, texels(spec)?);
+        if let LightSpec::Environment { source: EnvironmentSource::File { path }, .. } = &spec.light
+        {
+            environment::inspect(path)?;
+        }
+        let mut stage = Stagehand::new(spec.seed, halt.clone());
+        let watch = Arc::clone(watch);
+        stage.world.insert_resource(Watch(Arc::new(move |part| watch(RunEvent::Partly { part }))));
+        let plan = author(spec, &mut stage);
+        let store = Store::open(folder, &keys::common(spec))?;
+        stage.world.insert_resource(store.shelf());
+        Ok(Self { stage, plan, store, work })
+    }
 }
 
 /// How much there is to an experiment.
@@ -158,9 +179,11 @@ impl Run<'_> {
         (self.watch)(RunEvent::Scene { slug, part: None, number, of });
         self.left = self.work.scene(scene);
         self.take_up(scene);
+        self.take_up_budgets(scene);
         self.stage.world.insert_resource(Current(scene.entity));
         let done = self.complete(scene) || self.work_at(scene)?;
         if done {
+            self.stage.world.entity_mut(scene.entity).remove::<Replicates>();
             self.let_go(scene);
             // Trials that a method refused.
             self.advance(self.left, true);
@@ -223,7 +246,15 @@ impl Run<'_> {
             return (what, self.work.prefilter(scene, method));
         }
         if world.get::<ReferenceImage>(scene.entity).is_none() {
-            return ("converging the reference".to_owned(), self.work.replicate());
+            let further = world
+                .get::<Replicates>(scene.entity)
+                .is_some_and(|so_far| so_far.0.replicates() >= self.spec.reference.replicates);
+            let what = if further {
+                "sampling the reference further, to tell methods apart"
+            } else {
+                "converging the reference"
+            };
+            return (what.to_owned(), if further { 0.0 } else { self.work.replicate() });
         }
         let taken = |trial: &PlannedTrial| {
             world.get::<Prefilter>(scene.prefilters[trial.method]).is_some_and(|p| p.0.is_ok())
@@ -235,6 +266,7 @@ impl Run<'_> {
                 let label = &self.spec.sweep.methods[trial.method].label;
                 (format!("rendering {label} at {} spp", trial.spp), self.work.trial(trial))
             }
+            None if self.wants_budgets(scene) => ("sharing errors out".to_owned(), 0.0),
             None => ("measuring".to_owned(), 0.0),
         }
     }

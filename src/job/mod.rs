@@ -3,6 +3,8 @@
 
 mod control;
 mod find;
+mod shards;
+mod verify;
 
 #[cfg(test)]
 mod tests;
@@ -11,9 +13,12 @@ use std::path::{Path, PathBuf};
 
 pub use control::{Control, Gate};
 pub use find::{DEFAULT, FOLDER, FindError, is_image, load, load_sweep, locate, names, names_in};
+pub use shards::{MergeError, SHARDS, merge, run_shard, shard_folder};
+pub use verify::{Difference, FileNow, Verified, VerifyError, differences, reports_in, verify};
 
 use crate::evidence::{Evidence, Findings, Gathered, gather};
 use crate::experiment::lock::{Lock, LockError};
+use crate::experiment::manifest::Manifest;
 use crate::experiment::results::Results;
 use crate::experiment::runner::{self, Outcome, RunError, RunEvent, Watcher};
 use crate::experiment::spec::{Experiment, PaperSpec, Spec};
@@ -75,11 +80,17 @@ pub fn run(
     watch: &Watcher,
 ) -> Result<Ending, JobError> {
     let _lock = Lock::take(folder)?;
+    let mut manifest = Manifest::begun(experiment, None)?;
+    manifest.write(folder)?;
     let watch = control.gated(watch);
     let done = match experiment {
         Experiment::Sweep(spec) => sweep(spec, folder, control, &watch)?,
         Experiment::Paper(spec) => paper(spec, folder, control, &watch)?,
     };
+    if done.is_some() {
+        manifest.finished = true;
+        manifest.write(folder)?;
+    }
     Ok(done.map_or(Ending::Halted, Ending::Done))
 }
 

@@ -25,6 +25,7 @@ pub mod sampled;
 mod slopes;
 mod surface_file;
 pub mod vector;
+mod warp;
 
 pub use base::BaseLobe;
 pub use elliptic::{EllipticLobe, Profile};
@@ -40,3 +41,4 @@ pub use restricted::{Cut, Generator, RestrictedLobe};
 pub use sampled::SampledLobe;
 pub use slopes::{GAUSSIANS, Gaussian, Gaussians, Slopes};
 pub use surface_file::{SurfaceFileError, read_peaks};
+pub use warp::{Replacing, SlopeMoments, Warp, Warped};

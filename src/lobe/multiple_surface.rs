@@ -3,7 +3,7 @@
 use super::vector::V3;
 use super::{
     EllipticLobe, Facet, Horizon, PedalLobe, PhongPeak, RestrictedLobe, SampledLobe, Shading,
-    Slopes, Spread,
+    Slopes, Spread, Warp, Warped,
 };
 
 /// The most lobes a surface from a file may have: 12 peaks a texel (7 in Fournier 1992 §2.4), 4 texels, 2
@@ -188,7 +188,34 @@ impl MultipleSurface {
     /// Radiance for unit irradiance (see [`Shading`]), summed over the lobes, of each what its horizon
     /// lets by.
     pub fn radiance(&self, shading: Shading, half: V3, light: V3, view: V3) -> f32 {
-        let all = self.lobes.iter().map(|lobe| lobe.radiance(shading, half, light, view));
+        self.gathered(light, view, |lobe| lobe.radiance(shading, half, light, view))
+    }
+
+    /// [`MultipleSurface::radiance`] with every lobe seen through a warp, behind the horizon it has.
+    pub fn warped_radiance(
+        &self,
+        warp: &Warp,
+        shading: Shading,
+        half: V3,
+        light: V3,
+        view: V3,
+    ) -> f32 {
+        if *warp == Warp::IDENTITY {
+            return self.radiance(shading, half, light, view);
+        }
+        let sent = |lobe: &Lobe| Warped { lobe, warp }.radiance(shading, half, light, view);
+        self.gathered(light, view, sent)
+    }
+
+    /// The same surface without horizons: all of it is seen and lit.
+    pub fn open(mut self) -> Self {
+        self.horizons.clear();
+        self
+    }
+
+    /// What the lobes send, of each what its horizon lets by.
+    fn gathered(&self, light: V3, view: V3, sent: impl Fn(&Lobe) -> f32) -> f32 {
+        let all = self.lobes.iter().map(sent);
         if self.horizons.is_empty() {
             return all.sum();
         }

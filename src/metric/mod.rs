@@ -8,6 +8,7 @@ mod distribution;
 mod equivalent;
 mod flicker;
 mod flip;
+mod lead;
 mod luminance;
 mod ms_ssim;
 mod pixelwise;
@@ -20,6 +21,7 @@ pub use distribution::{EVEN, SLICES, kl_divergence, total_variation, wasserstein
 pub use equivalent::{Equivalent, SpeedUp, equivalent_samples};
 pub use flicker::{Flicker, Step, flicker_map};
 pub use flip::{Exposures, exposures};
+pub use lead::{Lead, Verdict, Z};
 pub use ms_ssim::SCALE_WEIGHTS;
 pub use pixelwise::{DARK, HIGHLIGHT};
 pub use registry::{entries, find};
@@ -88,6 +90,22 @@ fn mean_field(channels: &[Field]) -> Option<Field> {
     }
     sum.values.iter_mut().for_each(|sum| *sum /= channels.len() as f64);
     Some(sum)
+}
+
+/// A score, and where the score against a reference without noise lies 95 times in 100, if that is known.
+pub type Scored = (&'static str, f64, Option<[f64; 2]>);
+
+/// The scores of a rendering with their intervals; see [`scores_with_errors`].
+///
+/// # Panics
+/// If the films or the variances differ in size: a programming error.
+pub fn scores_with_intervals(test: &Film, reference: &Film, variance: &[f64]) -> Vec<Scored> {
+    let least = |name| match find(name).map(|metric| metric.best) {
+        Some(Best::Highest) | None => f64::NEG_INFINITY,
+        Some(Best::Lowest | Best::One) => 0.0,
+    };
+    let found = scores_with_errors(test, reference, variance).into_iter();
+    found.map(|(name, of)| (name, of.value, Some(of.interval(least(name))))).collect()
 }
 
 /// Which values of a metric are good.

@@ -21,8 +21,8 @@ mod local;
 
 pub(super) use local::{local, whole};
 
-use super::Viewing;
 use super::pixelwise::{Pixelwise, pairs};
+use super::{Viewing, Z};
 use crate::render::Film;
 
 /// A score and what the reference's noise makes of it.
@@ -34,6 +34,14 @@ pub struct Uncertain {
     pub bias: f64,
     /// The standard error, at least 0: how much it would scatter from one noisy reference to another.
     pub error: f64,
+}
+
+impl Uncertain {
+    /// Where the score against the truth lies 95 times in 100, of a score that cannot be below `least`.
+    pub fn interval(&self, least: f64) -> [f64; 2] {
+        let middle = self.value - self.bias;
+        [middle - Z * self.error, middle + Z * self.error].map(|end| end.max(least))
+    }
 }
 
 /// Gauss and Hermite's points in standard deviations, with their weights.

@@ -45,7 +45,7 @@ impl View {
         let [u, v] = hit.uv.map(|c| self.wrap.fold(c) as f32);
         let bend = self.surface.bend(&hit).unwrap_or_default();
         let footprint = Footprint { u, v, along_x, along_y, lookup: self.lookup, bend };
-        Some(Sight { footprint, frame: hit.frame, view: -ray.normalize() })
+        Some(Sight { footprint, point: hit.point, frame: hit.frame, view: -ray.normalize() })
     }
 
     /// Fills `batch` with the shading points under the first `len` image points (`x`, `y`). With
@@ -95,6 +95,8 @@ impl View {
 pub(super) struct Sight {
     /// What the sample covers of the map.
     pub footprint: Footprint,
+    /// The point, world space.
+    pub point: Vec3,
     /// The tangent space there, in the world.
     pub frame: Frame,
     /// Unit direction to the eye, world space.

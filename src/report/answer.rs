@@ -124,11 +124,20 @@ mod tests {
     fn a_tie_is_called_a_tie() {
         let mut results = fixture::results();
         for scene in &mut results.scenes {
-            scene.reference.rmse = 10.0;
+            scene.reference.gap = 100.0;
         }
         let text = lead(&results);
         assert!(text.contains("among the closest in 12 of 12 scenes"), "{text}");
-        assert!(text.contains("12 of 12 scenes ended in one"), "{text}");
+        assert!(text.contains("12 of 12 scenes ended in a tie. No tie is for want"), "{text}");
+        for scene in &mut results.scenes {
+            scene.reference.gap = 0.01;
+            scene.reference.variance.fill(1e4);
+        }
+        let text = lead(&results);
+        assert!(
+            text.contains("12 of 12 scenes ended in a tie. In 12 of them the samples"),
+            "{text}"
+        );
     }
 
     #[test]

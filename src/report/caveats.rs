@@ -123,43 +123,50 @@ pub fn refusals(results: &Results) -> Vec<String> {
     unique(all.iter().map(|(_, r)| r.method.as_str())).into_iter().map(sentence).collect()
 }
 
-/// How far the reference itself can be trusted, and which scenes it leaves undecided.
+/// How far the reference itself can be trusted, and what it leaves undecided.
 pub fn certainty(comparison: &Comparison) -> String {
-    let references = comparison.contests().map(|c| &c.scene.reference);
+    let contests = || comparison.contests();
+    let references = contests().map(|c| &c.scene.reference);
     let worst = references.clone().map(|r| r.rmse).fold(0.0, f64::max);
-    let spp = unique(references.clone().map(|r| r.spp.to_string()));
+    let mut spp: Vec<u32> = unique(references.clone().map(|r| r.spp));
+    spp.sort_unstable();
+    let spp: Vec<String> = spp.iter().map(u32::to_string).collect();
+    let gaps: Vec<String> = unique(references.clone().map(|r| phrase::percent(r.gap)));
     let shown = unique(references.filter_map(|r| r.truth.meaning()).map(str::to_owned));
     let show = if shown.is_empty() { String::new() } else { format!(" and show {}", list(&shown)) };
-    let ties: Vec<_> = comparison.contests().filter(|c| c.winners().count() > 1).collect();
-    let text = format!(
-        "The references used {} samples a pixel{show}; their own RMSE is estimated at {} or less. A lead under \
-         twice the own error of a scene’s reference counts as a tie: {} of {} ended in one",
+    let ties = contests().filter(|c| c.winners().count() > 1).count();
+    let open: Vec<_> = contests().filter(|c| c.undecided().next().is_some()).collect();
+    let scenes = count(contests().count(), "scene");
+    let opening = format!(
+        "The references used {} samples a pixel{show}; their own RMSE is estimated at {} or less. Methods tie whose RMSE \
+         lie within {} of each other, or no farther apart than a reference’s noise could put them, 95 times in 100: \
+         {ties} of {scenes} ended in a tie.",
         list(&spp),
         phrase::number(worst),
-        ties.len(),
-        count(comparison.contests().count(), "scene"),
+        list(&gaps),
     );
-    match ties.len() {
-        1..=NAMED => {
-            let told: Vec<_> = ties.iter().map(|c| tie(c)).collect();
-            format!("{text}: {}.", told.join("; "))
+    match open.as_slice() {
+        [] => format!("{opening} No tie is for want of samples: every larger gap was resolved."),
+        few if few.len() <= NAMED => {
+            let told: Vec<_> = few.iter().map(|c| undecided(c)).collect();
+            format!(
+                "{opening} More samples of the reference could yet decide: {}.",
+                told.join("; ")
+            )
         }
-        _ => text + ".",
+        many => format!(
+            "{opening} In {} of them the samples allowed to a reference were too few to say who is closest.",
+            many.len()
+        ),
     }
 }
 
-/// `gaussian at 64 texels a pixel, where fournier and olano-north lie within 0.0151 and …`
-fn tie(contest: &Contest) -> String {
-    let names: Vec<_> = contest.winners().map(|s| s.method.label.as_str()).collect();
-    let errors = || contest.winners().map(|s| s.error);
-    let apart = errors().fold(0.0, f64::max) - errors().fold(f64::INFINITY, f64::min);
-    format!(
-        "{}, where {} lie within {} and the reference’s own RMSE is {}",
-        contest.name(),
-        list(&names),
-        phrase::number(apart),
-        phrase::number(contest.scene.reference.rmse),
-    )
+/// `gaussian at 64 texels a pixel, where olano-north may be as close as fournier`
+fn undecided(contest: &Contest) -> String {
+    let open: Vec<_> = contest.undecided().map(|s| s.method.label.as_str()).collect();
+    let closest = contest.standings.iter().min_by(|a, b| a.error.total_cmp(&b.error));
+    let closest = closest.map_or("", |s| s.method.label.as_str());
+    format!("{}, where {} may be as close as {closest}", contest.name(), list(&open))
 }
 
 #[cfg(test)]

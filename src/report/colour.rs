@@ -1,5 +1,7 @@
 //! Colours that keep apart for every kind of colour vision, and the style of each method.
 
+use serde::Serialize;
+
 use crate::experiment::results::MethodInfo;
 
 use super::contest::{BRUTE_FORCE, family, unique};
@@ -122,6 +124,18 @@ const SIGNED: [[u8; 3]; 5] = [
     [0xee, 0x8a, 0x4a],
     [0x8f, 0x2d, 0x00],
 ];
+
+/// The anchors of both scales of values, for pages that colour them themselves.
+#[derive(Serialize)]
+pub struct Scales {
+    magnitude: &'static [[u8; 3]],
+    signed: &'static [[u8; 3]],
+}
+
+/// The scales of [`magnitude`] and [`signed`].
+pub fn scales() -> Scales {
+    Scales { magnitude: &VIRIDIS, signed: &SIGNED }
+}
 
 /// A magnitude from 0 to 1 as a colour.
 pub fn magnitude(value: f64) -> [u8; 3] {

@@ -2,9 +2,9 @@
 
 use super::phrase;
 use super::scale::{Scale, scales};
-use crate::experiment::results::{MethodInfo, Results, SceneKey, SceneResult};
+use crate::experiment::results::{MethodInfo, Results, SceneKey, SceneResult, TrialResult};
 use crate::geometry::elementary::{exp64, ln64};
-use crate::metric::{Equivalent, equivalent_samples};
+use crate::metric::{Equivalent, Lead, Verdict, equivalent_samples};
 
 /// The metric that decides: root mean square error against the reference.
 pub const DECIDES: &str = "rmse";
@@ -19,8 +19,17 @@ pub struct Standing<'a> {
     pub error: f64,
     /// What that is worth in unfiltered samples; `None` if there is no brute-force curve.
     pub worth: Option<Equivalent>,
-    /// Whether nothing is closer by twice the reference's own error or more.
-    pub best: bool,
+    /// Where its RMSE before a reference without noise lies 95 times in 100, if that is known.
+    pub interval: Option<[f64; 2]>,
+    /// What can be said of the closest method's lead over it; `Level` of the closest itself.
+    pub behind: Verdict,
+}
+
+impl Standing<'_> {
+    /// Whether nothing is closer beyond the reference's noise, by as much as is worth reporting.
+    pub fn best(&self) -> bool {
+        self.behind != Verdict::Ahead
+    }
 }
 
 /// All methods in one scene.
@@ -36,23 +45,37 @@ pub struct Contest<'a> {
 impl<'a> Contest<'a> {
     fn of(results: &'a Results, scene: &'a SceneResult, spp: u32) -> Self {
         let curve = brute_force_curve(results, scene);
+        let trial = |method: &MethodInfo| {
+            scene.trials.iter().find(|t| t.method == method.label && t.spp == spp)
+        };
         let measured = results.methods.iter().filter_map(|method| {
-            let trial = scene.trials.iter().find(|t| t.method == method.label && t.spp == spp)?;
-            let error = trial.score(DECIDES).filter(|e| e.is_finite())?;
-            Some(Standing { method, error, worth: equivalent_samples(&curve, error), best: false })
+            let score = trial(method)?.scores.iter().find(|s| s.metric == DECIDES)?;
+            let error = Some(score.value).filter(|e| e.is_finite())?;
+            let (worth, interval) = (equivalent_samples(&curve, error), score.interval);
+            Some(Standing { method, error, worth, interval, behind: Verdict::Level })
         });
         let mut standings: Vec<_> = measured.collect();
-        let least = standings.iter().map(|s| s.error).fold(f64::INFINITY, f64::min);
-        for standing in &mut standings {
-            let gap = standing.error - least;
-            standing.best = gap == 0.0 || gap < 2.0 * scene.reference.rmse;
+        let closest = standings.iter().min_by(|a, b| a.error.total_cmp(&b.error));
+        if let Some(near) = closest.and_then(|closest| trial(closest.method)) {
+            for standing in &mut standings {
+                let of = &scene.reference;
+                let lead = |far: &TrialResult| {
+                    Lead::of(&near.film, &far.film, &of.film, &of.variance, of.gap).verdict()
+                };
+                standing.behind = trial(standing.method).map_or(Verdict::Level, lead);
+            }
         }
         Self { scene, mean: mean_radiance(scene), standings }
     }
 
     /// The methods that came closest: one, or all that tie.
     pub fn winners(&self) -> impl Iterator<Item = &Standing<'a>> {
-        self.standings.iter().filter(|s| s.best)
+        self.standings.iter().filter(|s| s.best())
+    }
+
+    /// The methods that the reference's noise leaves open whether they are farther off than the closest.
+    pub fn undecided(&self) -> impl Iterator<Item = &Standing<'a>> {
+        self.standings.iter().filter(|s| s.behind == Verdict::Undecided)
     }
 
     /// An error as a part of the reference's mean radiance.
@@ -220,18 +243,27 @@ mod tests {
     use crate::report::fixture;
 
     #[test]
-    fn a_gap_under_twice_the_reference_error_is_a_tie() {
+    fn a_lead_that_noise_explains_or_that_is_too_small_to_report_is_a_tie() {
         let mut results = fixture::results();
         let label = |c: &Contest| c.winners().map(|s| s.method.label.clone()).collect::<Vec<_>>();
         let comparison = Comparison::of(&results);
         let alone = label(comparison.contests().next().unwrap());
         assert_eq!(alone.len(), 1);
+        let mut blurred = results.clone();
+        for scene in &mut blurred.scenes {
+            scene.reference.variance.fill(1e4);
+        }
+        let comparison = Comparison::of(&blurred);
+        let first = comparison.contests().next().unwrap();
+        assert_eq!(label(first).len(), first.standings.len());
+        assert!(first.undecided().count() > 0);
         for scene in &mut results.scenes {
-            scene.reference.rmse = 10.0;
+            scene.reference.gap = 100.0;
         }
         let comparison = Comparison::of(&results);
         let first = comparison.contests().next().unwrap();
         assert_eq!(label(first).len(), first.standings.len());
+        assert_eq!(first.undecided().count(), 0);
     }
 
     #[test]

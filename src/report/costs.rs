@@ -132,6 +132,7 @@ fn scene_speed_up(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metric::{Equivalent, equivalent_samples};
     use crate::report::fixture;
 
     #[test]
@@ -150,9 +151,10 @@ mod tests {
         let scene = &results.scenes[0];
         let (ratio, bound) = scene_speed_up(&results, &costs, scene, "fournier", 1).unwrap();
         let error = scene.trials.iter().find(|t| t.method == "fournier").unwrap().scores[0].value;
-        let at_one = brute_force_curve(&results, scene)[0].1;
+        let samples = equivalent_samples(&brute_force_curve(&results, scene), error);
+        let Some(Equivalent::Samples(samples)) = samples else { panic!("{samples:?}") };
         assert!(!bound);
-        assert!((ratio - (at_one / error).powi(2)).abs() < 1e-9 * ratio);
+        assert!((ratio - samples).abs() < 1e-9 * ratio);
     }
 
     #[test]

@@ -9,8 +9,10 @@ use super::phrase::{self, count};
 use super::png;
 use super::scale::texels;
 use super::sheet::{self, Frames};
+use super::source::Lines;
+use super::viewer::{Viewer, viewer};
 
-use super::{curves, disc};
+use super::{budget, curves, disc};
 use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo, TrialResult};
 
 /// The figures of a report.
@@ -22,6 +24,8 @@ pub struct Figures {
     settings: Vec<SettingFigures>,
     /// Figures of each scene.
     scenes: Vec<SceneFigures>,
+    /// Budgets of errors, if any were drawn up.
+    budget: Option<budget::Section>,
     /// The textures' pictures, in their order.
     textures: Vec<Option<String>>,
 }
@@ -37,7 +41,11 @@ struct SceneFigures {
     heading: String,
     setting: String,
     remark: String,
+    slug: String,
     sheet: Figure,
+    /// The viewer of its images.
+    viewer: Option<Viewer>,
+    /// The images as pictures, if the page has no room for the viewer's films.
     frames: Vec<FrameImages>,
     probes: Vec<Figure>,
     films: Vec<Films>,
@@ -65,12 +73,8 @@ impl Figures {
         Self {
             overall: overall(&comparison),
             settings: settings.map(|(i, s)| setting_figures(&comparison, s, i + 1)).collect(),
-            // Scene by scene in parallel, kept in order.
-            scenes: results
-                .scenes
-                .par_iter()
-                .map(|scene| scene_figures(results, scene, comparison.spp))
-                .collect(),
+            scenes: scenes(results, comparison.spp),
+            budget: budget::Section::of(&comparison),
             textures: results.textures.iter().map(texture_picture).collect(),
         }
     }
@@ -79,9 +83,42 @@ impl Figures {
     pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
         let settings = self.settings.iter().flat_map(|s| &s.figures);
         let scenes = self.scenes.iter().flat_map(|s| std::iter::once(&s.sheet).chain(&s.probes));
-        let all = self.overall.iter().chain(settings).chain(scenes);
+        let budgets = self.budget.iter().flat_map(budget::Section::figures);
+        let all = self.overall.iter().chain(settings).chain(scenes).chain(budgets);
         all.map(|figure| (figure.file.as_str(), figure.png.as_slice()))
     }
+}
+
+/// Bytes of films that a page holds, as text.
+const ROOM: usize = 14 << 20;
+
+/// The figures of all scenes. Films find room in the page scene by scene: those that methods are compared by, then,
+/// if all of them fit, those of brute force at more samples.
+fn scenes(results: &Results, spp: u32) -> Vec<SceneFigures> {
+    // In parallel, kept in order.
+    let lines = Lines::of(results);
+    let made = results.scenes.par_iter().map(|scene| scene_figures(results, &lines, scene, spp));
+    let (mut made, compared): (Vec<SceneFigures>, Vec<usize>) = made.unzip();
+    let viewers = || made.iter().filter_map(|figures| figures.viewer.as_ref());
+    if viewers().map(|viewer| viewer.size(viewer.len())).sum::<usize>() > ROOM {
+        let mut room = ROOM;
+        for ((figures, scene), count) in made.iter_mut().zip(&results.scenes).zip(compared) {
+            let Some(viewer) = &mut figures.viewer else { continue };
+            viewer.shorten(count);
+            match room.checked_sub(viewer.size(count)) {
+                Some(left) => room = left,
+                None => {
+                    figures.viewer = None;
+                    figures.frames = pictures(&sheet::frames(scene, spp));
+                }
+            }
+        }
+    }
+    made
+}
+
+fn pictures(frames: &Frames) -> Vec<FrameImages> {
+    frames.frames.iter().map(FrameImages::of).collect()
 }
 
 /// A texture's picture as a page holds it.
@@ -128,7 +165,13 @@ fn setting_figures(comparison: &Comparison, setting: &Setting, number: usize) ->
     SettingFigures { name: setting.name.clone(), figures }
 }
 
-fn scene_figures(results: &Results, scene: &SceneResult, spp: u32) -> SceneFigures {
+/// The figures of a scene, and how many of its viewer's images methods are compared by.
+fn scene_figures(
+    results: &Results,
+    lines: &Lines,
+    scene: &SceneResult,
+    spp: u32,
+) -> (SceneFigures, usize) {
     let frames = sheet::frames(scene, spp);
     let remark = format!(
         "White is radiance {}. Errors are method − reference: blue too dark, orange too bright, in full colour \
@@ -137,15 +180,19 @@ fn scene_figures(results: &Results, scene: &SceneResult, spp: u32) -> SceneFigur
         phrase::number(frames.full),
     );
     let probes = scene.probes.iter().enumerate();
-    SceneFigures {
+    let (viewer, compared) = viewer(results, lines, scene, &frames, spp);
+    let figures = SceneFigures {
+        slug: scene.slug.clone(),
         heading: format!("{}, {}", scene.key.texture, texels(scene.key.texels_per_pixel)),
         setting: setting_name(results, &scene.key),
         sheet: sheet_figure(scene, &frames, spp),
-        frames: frames.frames.iter().map(FrameImages::of).collect(),
+        frames: if viewer.is_none() { pictures(&frames) } else { Vec::new() },
+        viewer,
         probes: probes.map(|(i, probe)| probe_figure(results, scene, probe, i + 1)).collect(),
         films: films(scene),
         remark,
-    }
+    };
+    (figures, compared)
 }
 
 fn sheet_figure(scene: &SceneResult, frames: &Frames, spp: u32) -> Figure {

@@ -9,6 +9,7 @@ use crate::experiment::spec::{MotionKind, MotionSpec};
 use crate::geometry::HemisphereGrid;
 use crate::lobe::BaseLobe;
 use crate::method::Truth;
+use crate::metric;
 use crate::render::Film;
 use crate::texture::Lookup;
 
@@ -141,15 +142,18 @@ fn scene(t: usize, texture: &str, scale: f64) -> SceneResult {
         slug: format!("{texture}-{scale}"),
         sequence: format!("{texture}-{scale}"),
         reference: Reference {
+            variance: vec![0.0004 * 0.0004; film.pixels().len()],
             film,
             spp: 4096,
             rmse: 0.0004,
             mean_error: 0.0002,
             truth: Truth::Bumps,
+            gap: 0.01,
         },
         trials: trials.collect(),
         refusals: METHODS.iter().filter(|m| refused(m.0)).map(|m| refusal(m.0)).collect(),
         probes: if scale == 16.0 && t == 0 { vec![probe()] } else { vec![] },
+        budgets: Vec::new(),
     }
 }
 
@@ -181,15 +185,18 @@ fn trial(i: usize, t: usize, spp: u32, scale: f64) -> TrialResult {
     let favour = if i == 2 + t { 0.6 } else { 1.0 + 0.1 * ((i + t) % 3) as f64 };
     let error = favour * (base + growth * scale.log2()) / f64::from(spp).sqrt();
     let film = highlight(t, error as f32, i as f32 + f32::from(spp as u16));
+    let measured = metric::scores(&film, &highlight(t, 0.0, 0.0));
+    let [mut rmse, relmse, ssim] = ["rmse", "relmse", "ssim"].map(|name| {
+        let value = measured.iter().find(|(metric, _)| *metric == name).unwrap().1;
+        Score { metric: name.into(), value, interval: None }
+    });
+    // As wide as three digits show in the smallest.
+    rmse.interval = Some([rmse.value - 2e-5, rmse.value + 2e-5]);
     TrialResult {
         method: label.into(),
         spp,
         film: Arc::new(film),
-        scores: vec![
-            Score { metric: "rmse".into(), value: error },
-            Score { metric: "relmse".into(), value: error * error * 3.0 },
-            Score { metric: "ssim".into(), value: 1.0 - error },
-        ],
+        scores: vec![rmse, relmse, ssim],
     }
 }
 

@@ -5,6 +5,7 @@
 //! |---|---|---|
 //! | `report.md`, `report.html` | the answer, tables, figures, method cards | yes |
 //! | `metrics.csv`, `metrics.json` | one row a trial and metric | yes |
+//! | `budget.csv` | where errors are shared out: one row a scene, method and part | yes |
 //! | `flicker.csv` | of things that move: one row a method and figure of flicker | yes |
 //! | `plots/*.png`, `images/*.png` | what the reports show | yes |
 //! | `animations/*.png`, `frames/*.png` | of things that move: animated PNG files, and one file a frame | yes |
@@ -15,6 +16,7 @@
 mod answer;
 pub(crate) mod axis;
 mod bar;
+mod budget;
 mod canvas;
 mod caveats;
 mod chart;
@@ -30,6 +32,7 @@ mod figures;
 mod files;
 mod fit_plot;
 mod font;
+mod format;
 mod grid;
 mod lobe_sheet;
 mod mark;
@@ -41,11 +44,13 @@ mod polar;
 mod ranking;
 mod scale;
 mod sheet;
+mod source;
 mod split;
 mod tables;
 mod template;
 mod tidy;
 mod tone;
+mod viewer;
 mod words;
 
 #[cfg(test)]
@@ -58,6 +63,7 @@ pub use disc::cell_of_normal;
 pub use evidence::write_evidence;
 pub use files::ReportError;
 pub use fit_plot::fit_plot;
+pub use format::{FORMAT, Newer, check_format};
 pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};
@@ -75,6 +81,9 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
     folder.put("metrics.json", &tidy::json(results))?;
     if !results.sequences.is_empty() {
         folder.put("flicker.csv", &motion::csv::csv(results))?;
+    }
+    if results.scenes.iter().any(|scene| !scene.budgets.is_empty()) {
+        folder.put("budget.csv", &budget::csv::csv(results))?;
     }
     folder.put("costs.csv", &costs::csv(costs))?;
     folder.put("costs.md", costs::markdown(results, costs).as_bytes())?;

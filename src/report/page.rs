@@ -8,9 +8,12 @@ use super::answer::answer;
 use super::contest::{Comparison, unique};
 use super::figures::Figures;
 use super::ranking;
+use super::source::Lines;
 use super::split;
 use super::tables::{self, Table};
 use super::template::render;
+use super::tidy;
+use super::viewer::pack;
 use super::words;
 use crate::experiment::results::{Costs, MethodInfo, Results, TextureInfo};
 
@@ -35,6 +38,8 @@ pub struct Page<'a> {
     reading: &'static str,
     spec: &'a str,
     seed: u64,
+    /// `metrics.csv`, packed, for the rows behind figures.
+    rows: String,
 }
 
 /// The tables of one setting.
@@ -58,15 +63,20 @@ impl<'a> Page<'a> {
     /// The report on these results.
     pub fn of(results: &'a Results, costs: &Costs, figures: &'a Figures) -> Self {
         let comparison = Comparison::of(results);
+        let lines = Lines::of(results);
+        let traced = |mut table: Table| {
+            lines.trace(&mut table);
+            table
+        };
         let settings = comparison.settings.iter().map(|setting| SettingTables {
             name: setting.name.clone(),
-            choice: ranking::choice(&comparison, setting),
-            winners: tables::winners(setting),
-            split: split::split(&comparison, setting),
+            choice: ranking::choice(&comparison, setting).map(traced),
+            winners: traced(tables::winners(setting)),
+            split: split::split(&comparison, setting).map(traced),
             tables: setting
                 .scales
                 .iter()
-                .map(|s| tables::at_scale(&comparison, setting, s))
+                .map(|s| traced(tables::at_scale(&comparison, setting, s)))
                 .collect(),
         });
         Self {
@@ -74,11 +84,11 @@ impl<'a> Page<'a> {
             title: &results.title,
             question: &results.question,
             answer: answer(&comparison),
-            ranking: ranking::ranking(&comparison, costs),
-            normalising: ranking::normalising(&comparison),
+            ranking: traced(ranking::ranking(&comparison, costs)),
+            normalising: ranking::normalising(&comparison).map(traced),
             dagger: tables::dagger(&results.methods),
             settings: settings.collect(),
-            others: tables::other_metrics(&comparison),
+            others: tables::other_metrics(&comparison).map(traced),
             methods: &results.methods,
             textures: &results.textures,
             shadings: shadings(results),
@@ -87,6 +97,7 @@ impl<'a> Page<'a> {
             reading: words::DISTRIBUTIONS,
             spec: &results.spec,
             seed: results.seed,
+            rows: pack::packed(&tidy::csv(results)),
         }
     }
 }
@@ -101,7 +112,8 @@ pub fn shadings(results: &Results) -> Vec<Definition<'_>> {
 /// The metrics that trials were scored by.
 pub fn metrics(results: &Results) -> Vec<Definition<'_>> {
     let scores = results.scenes.iter().flat_map(|s| &s.trials).flat_map(|t| &t.scores);
-    let probed = results.scenes.iter().any(|s| !s.probes.is_empty()).then_some("ndf_l1");
+    let probed = results.scenes.iter().any(|s| !s.probes.is_empty());
+    let probed = ["ndf_l1", "ndf_kl", "ndf_wasserstein"].into_iter().filter(|_| probed);
     let names = unique(scores.map(|s| s.metric.as_str()).chain(probed));
     let define = |word| Some(Definition { word, meaning: words::metric_formula(word)? });
     names.into_iter().filter_map(define).collect()

@@ -1,5 +1,7 @@
 //! Numbers and lists as a reader wants them.
 
+use libm::{exp10, floor, log10};
+
 use crate::metric::Equivalent;
 
 /// Three significant digits, as `0.0123`, `12.3` or `1230`; `1.23×10⁻⁷` where zeros would pile up.
@@ -18,6 +20,44 @@ pub fn number(value: f64) -> String {
         }
         _ => format!("{mantissa}×10{}", superscript(exponent)),
     }
+}
+
+/// A number, and how far from it the ends of its interval are at most, if that is more than its digits leave open:
+/// `0.0123`, `0.0123 ± 0.0004`.
+pub fn number_within(value: f64, interval: Option<[f64; 2]>) -> String {
+    let text = number(value);
+    let Some([low, high]) = interval else { return text };
+    if !value.is_finite() || value == 0.0 {
+        return text;
+    }
+    let either_way = (high - value).max(value - low);
+    // A unit of the third digit.
+    let unit = exp10(floor(log10(value.abs())) - 2.0);
+    if either_way.is_nan() || either_way <= 0.5 * unit {
+        return text;
+    }
+    format!("{text}\u{a0}±\u{a0}{}", rounded_up(either_way))
+}
+
+/// One digit, rounded up: what stands behind ± must not promise more than is known.
+fn rounded_up(value: f64) -> String {
+    if !value.is_finite() {
+        return "∞".into();
+    }
+    let unit = exp10(floor(log10(value)));
+    let up = (value / unit * (1.0 - 1e-9)).ceil() * unit;
+    let text = number(up);
+    if !text.contains('.') {
+        return text;
+    }
+    match text.split_once('×') {
+        Some((mantissa, power)) => format!("{}×{power}", trim(mantissa)),
+        None => trim(&text).to_owned(),
+    }
+}
+
+fn trim(text: &str) -> &str {
+    text.trim_end_matches('0').trim_end_matches('.')
 }
 
 /// Three significant digits without trailing zeros: for scales, which are mostly round numbers.
@@ -94,6 +134,20 @@ pub fn samples_short(equivalent: Equivalent) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_interval_is_told_where_the_digits_promise_more() {
+        let told = |value, half| number_within(value, Some([value - half, value + half]));
+        assert_eq!(told(0.01234, 0.00004), "0.0123");
+        assert_eq!(told(0.01234, 0.00041), "0.0123\u{a0}±\u{a0}0.0005");
+        assert_eq!(told(1.234, 0.2), "1.23\u{a0}±\u{a0}0.2");
+        assert_eq!(told(12340.0, 130.0), "12300\u{a0}±\u{a0}200");
+        assert_eq!(told(1.5e-7, 2e-8), "1.50×10⁻⁷\u{a0}±\u{a0}2×10⁻⁸");
+        // The farther end counts.
+        assert_eq!(number_within(1.0, Some([0.7, 1.0])), "1.00\u{a0}±\u{a0}0.3");
+        assert_eq!(number_within(1.0, None), "1.00");
+        assert_eq!(number_within(0.0, Some([0.0, 1.0])), "0");
+    }
 
     #[test]
     fn numbers_keep_three_digits() {

@@ -6,6 +6,7 @@ use super::caveats::printed_over_normalised;
 use super::choice::choices;
 use super::contest::{Comparison, Contest, Setting, family, geometric_mean, median};
 use super::phrase::{self, list};
+use super::source::{self, Source};
 use super::tables::{Cell, Table, dagger, label};
 use crate::experiment::results::{Costs, MethodInfo};
 
@@ -24,9 +25,19 @@ pub fn choice(comparison: &Comparison, setting: &Setting) -> Option<Table> {
         vec![
             c.scale.as_str().into(),
             Cell { best: pays, ..label(best.method).into() },
-            phrase::percent(best.left).into(),
-            best.relative.map_or_else(String::new, phrase::percent).into(),
-            best.worth.map_or_else(String::new, phrase::samples_short).into(),
+            Cell::from(phrase::percent(best.left)).from_rows(source::ratio(
+                at_scale(setting, &c.scale),
+                &best.method.label,
+                brute,
+            )),
+            Cell::from(best.relative.map_or_else(String::new, phrase::percent)).from_rows(
+                at_scale(setting, &c.scale)
+                    .flat_map(|s| source::relative(s.scene, &best.method.label)),
+            ),
+            Cell::from(best.worth.map_or_else(String::new, phrase::samples_short)).from_rows(
+                at_scale(setting, &c.scale)
+                    .flat_map(|s| source::worth(comparison.results, s.scene, &best.method.label)),
+            ),
             next,
             unhelped.into(),
         ]
@@ -48,6 +59,12 @@ pub fn choice(comparison: &Comparison, setting: &Setting) -> Option<Table> {
     let rows: Vec<_> = rows.collect();
     let title = "Which filter to choose".into();
     (!rows.is_empty()).then(|| Table { title, head: head.to_vec(), rows, notes })
+}
+
+/// The contests at the scale of this label.
+fn at_scale<'a>(setting: &'a Setting<'a>, label: &'a str) -> impl Iterator<Item = &'a Contest<'a>> {
+    let scale = setting.scales.iter().filter(move |scale| scale.label == label);
+    scale.flat_map(|scale| setting.at(scale))
 }
 
 /// How each method did over all scenes, and the memory it needs.
@@ -98,22 +115,28 @@ fn against(comparison: &Comparison, label: &str, brute: &str) -> [Cell; 3] {
     let worth = worth(comparison, label).map(|(middle, low, high)| Cell {
         text: phrase::samples_short(middle),
         aside: format!("{} … {}", phrase::samples_short(low), phrase::samples_short(high)),
-        best: false,
+        ..Cell::default()
     });
     if label == brute || ratios.is_empty() {
         return Default::default();
     }
+    let left = left.map_or_else(Cell::default, |left| phrase::percent(left).into());
+    let rows = source::ratio(comparison.contests(), label, brute);
+    let curves = comparison.contests();
+    let curves = curves.flat_map(|c| source::worth(comparison.results, c.scene, label));
     [
-        left.map_or_else(Cell::default, |left| phrase::percent(left).into()),
-        format!("{farther} of {}", ratios.len()).into(),
-        worth.unwrap_or_default(),
+        left.from_rows(rows.clone()),
+        Cell::from(format!("{farther} of {}", ratios.len())).from_rows(rows),
+        worth.unwrap_or_default().from_rows(curves),
     ]
 }
 
 fn relative(comparison: &Comparison, label: &str) -> Cell {
     let of = |c: &Contest| c.relative(c.standing(label)?.error);
     let found: Vec<f64> = comparison.contests().filter_map(of).collect();
-    median(found, |v| v).map_or_else(Cell::default, |v| phrase::percent(v).into())
+    let took_part = comparison.contests().filter(|c| c.standing(label).is_some());
+    let middle = median(found, |v| v).map_or_else(Cell::default, |v| phrase::percent(v).into());
+    middle.from_rows(took_part.flat_map(|c| source::relative(c.scene, label)))
 }
 
 /// Memory is part of the report, times are not: it is the same in every run.
@@ -136,7 +159,11 @@ pub fn normalising(comparison: &Comparison) -> Option<Table> {
         Some(vec![
             normalised.label.as_str().into(),
             printed.label.as_str().into(),
-            phrase::times(ratio).into(),
+            Cell::from(phrase::times(ratio)).from_rows(source::ratio(
+                comparison.contests(),
+                &printed.label,
+                &normalised.label,
+            )),
             energy(comparison, &printed.label, &normalised.label),
             energy(comparison, &normalised.label, &printed.label),
             shared.to_string().into(),
@@ -167,10 +194,15 @@ pub fn normalising(comparison: &Comparison) -> Option<Table> {
 /// A method's median energy over the scenes where `other` was measured too.
 fn energy(comparison: &Comparison, label: &str, other: &str) -> Cell {
     let both = |c: &&Contest| c.standing(label).is_some() && c.standing(other).is_some();
-    let trials = comparison.contests().filter(both).flat_map(|c| &c.scene.trials);
-    let trials = trials.filter(|t| t.method == label && t.spp == comparison.spp);
-    let found: Vec<f64> = trials.filter_map(|t| t.score("energy")).collect();
-    median(found, |v| v).map_or_else(Cell::default, |v| phrase::number(v).into())
+    let spp = comparison.spp;
+    let value = |c: &Contest| {
+        let trial = c.scene.trials.iter().find(|t| t.method == label && t.spp == spp)?;
+        Some((trial.score("energy")?, Source::of(c.scene, label, Some(spp), "energy")))
+    };
+    let (found, rows): (Vec<f64>, Vec<Source>) =
+        comparison.contests().filter(both).filter_map(value).unzip();
+    let middle = median(found, |v| v).map_or_else(Cell::default, |v| phrase::number(v).into());
+    middle.from_rows(rows)
 }
 
 #[cfg(test)]

@@ -70,7 +70,7 @@ fn cell(
         return Cell::default();
     }
     let aside = format!("lobe {}, lookup {}", mean(|s| s.lobe), mean(|s| s.lookup));
-    Cell { text: mean(|s| s.all), aside, best: false }
+    Cell { text: mean(|s| s.all), aside, ..Cell::default() }
 }
 
 fn of_scene(

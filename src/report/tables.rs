@@ -6,6 +6,7 @@ use super::caveats::not_finite;
 use super::contest::{Comparison, Contest, DECIDES, Setting, median, rank, unique};
 use super::phrase;
 use super::scale::Scale;
+use super::source::{self, Source};
 use super::words::better;
 use crate::experiment::results::MethodInfo;
 
@@ -31,6 +32,18 @@ pub struct Cell {
     pub aside: String,
     /// Whether it is the best of its column.
     pub best: bool,
+    /// The rows of `metrics.csv` that it follows from.
+    #[serde(skip)]
+    pub sources: Vec<Source>,
+    /// Their lines, as `12 40 41`; filled in by [`super::source::Lines::trace`].
+    pub lines: String,
+}
+
+impl Cell {
+    /// The same cell, which follows from these rows of `metrics.csv`.
+    pub fn from_rows(self, rows: impl IntoIterator<Item = Source>) -> Self {
+        Self { sources: rows.into_iter().collect(), ..self }
+    }
 }
 
 impl From<String> for Cell {
@@ -89,7 +102,8 @@ fn closest(contest: &Contest) -> Cell {
     let worths = contest.winners().filter_map(|s| s.worth);
     let worth = worths.max_by(|a, b| rank(*a).total_cmp(&rank(*b))).map(phrase::samples_short);
     let aside: Vec<_> = relative.into_iter().chain(worth).collect();
-    Cell { text: names.join(" = "), aside: aside.join("; "), best: false }
+    Cell { text: names.join(" = "), aside: aside.join("; "), ..Cell::default() }
+        .from_rows(contest.winners().flat_map(|s| source::relative(contest.scene, &s.method.label)))
 }
 
 /// Method by texture at one scale of a setting.
@@ -105,15 +119,18 @@ pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &Scale) -> Ta
         let errors = contests.iter().map(|c| cell(c, method));
         std::iter::once(label(method).into()).chain(errors).collect()
     });
-    let foot = |name: &str, figure: fn(&Contest) -> f64| -> Vec<Cell> {
+    let foot = |name: &str, metric: &str, figure: fn(&Contest) -> f64| -> Vec<Cell> {
         let text = |c: &Option<&Contest>| {
-            c.map_or_else(Cell::default, |c| phrase::number(figure(c)).into())
+            c.map_or_else(Cell::default, |c| {
+                let row = Source::reference(c.scene, metric);
+                Cell::from(phrase::number(figure(c))).from_rows([row])
+            })
         };
         std::iter::once(name.into()).chain(contests.iter().map(text)).collect()
     };
     let feet = [
-        foot("the reference’s own", |c| c.scene.reference.rmse),
-        foot("its mean radiance", |c| c.mean),
+        foot("the reference’s own", DECIDES, |c| c.scene.reference.rmse),
+        foot("its mean radiance", "mean_radiance", |c| c.mean),
     ];
     let head = std::iter::once("RMSE").chain(textures.iter().copied()).map(str::to_owned);
     Table {
@@ -128,10 +145,12 @@ pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &Scale) -> Ta
 fn error(comparison: &Comparison, contest: &Contest, method: &MethodInfo) -> Cell {
     match contest.standing(&method.label) {
         Some(standing) => Cell {
-            text: phrase::number(standing.error),
+            text: phrase::number_within(standing.error, standing.interval),
             aside: standing.worth.map_or_else(String::new, phrase::samples_short),
-            best: standing.best,
-        },
+            best: standing.best(),
+            ..Cell::default()
+        }
+        .from_rows(source::worth(comparison.results, contest.scene, &method.label)),
         None if not_finite(comparison, contest, &method.label) => "not finite".into(),
         None => Cell::default(),
     }
@@ -165,11 +184,15 @@ fn directions(metrics: &[&str]) -> String {
 }
 
 fn median_score(comparison: &Comparison, label: &str, metric: &str) -> Cell {
-    let trials = comparison.contests().flat_map(|c| &c.scene.trials);
-    let trials = trials.filter(|t| t.method == label && t.spp == comparison.spp);
-    let values: Vec<f64> =
-        trials.filter_map(|t| t.score(metric)).filter(|v| v.is_finite()).collect();
-    median(values, |v| v).map_or_else(Cell::default, |v| phrase::number(v).into())
+    let spp = comparison.spp;
+    let value = |c: &Contest| {
+        let trial = c.scene.trials.iter().find(|t| t.method == label && t.spp == spp)?;
+        let value = trial.score(metric).filter(|v| v.is_finite())?;
+        Some((value, Source::of(c.scene, label, Some(spp), metric)))
+    };
+    let (values, rows): (Vec<f64>, Vec<Source>) = comparison.contests().filter_map(value).unzip();
+    let middle = median(values, |v| v).map(|v| Cell::from(phrase::number(v)));
+    middle.unwrap_or_default().from_rows(rows)
 }
 
 #[cfg(test)]

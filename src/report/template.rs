@@ -1,14 +1,17 @@
 //! The templates of all reports, compiled in.
 
+use super::{colour, viewer};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 14] = [
+const TEMPLATES: [(&str, &str); 29] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
     ("report.md", include_str!("templates/report.md")),
     ("report.html", include_str!("templates/report.html")),
+    ("budget.md", include_str!("templates/budget.md")),
+    ("budget.html", include_str!("templates/budget.html")),
     ("cards.md", include_str!("templates/cards.md")),
     ("cards.html", include_str!("templates/cards.html")),
     ("motion.md", include_str!("templates/motion.md")),
@@ -16,7 +19,20 @@ const TEMPLATES: [(&str, &str); 14] = [
     ("evidence.md", include_str!("templates/evidence.md")),
     ("evidence.html", include_str!("templates/evidence.html")),
     ("style.css", include_str!("templates/style.css")),
-    ("script.js", include_str!("templates/script.js")),
+    ("script/dom.js", include_str!("templates/script/dom.js")),
+    ("script/colour.js", include_str!("templates/script/colour.js")),
+    ("script/films.js", include_str!("templates/script/films.js")),
+    ("script/camera.js", include_str!("templates/script/camera.js")),
+    ("script/maps.js", include_str!("templates/script/maps.js")),
+    ("script/draw.js", include_str!("templates/script/draw.js")),
+    ("script/pointer.js", include_str!("templates/script/pointer.js")),
+    ("script/bench.js", include_str!("templates/script/bench.js")),
+    ("script/scene.js", include_str!("templates/script/scene.js")),
+    ("script/keys.js", include_str!("templates/script/keys.js")),
+    ("script/sources.js", include_str!("templates/script/sources.js")),
+    ("script/theme.js", include_str!("templates/script/theme.js")),
+    ("script/flip.js", include_str!("templates/script/flip.js")),
+    ("script/main.js", include_str!("templates/script/main.js")),
     ("costs.md", include_str!("templates/costs.md")),
 ];
 
@@ -40,6 +56,7 @@ fn environment() -> Environment<'static> {
     syntax.trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true);
     environment.set_syntax(syntax.build().expect("only the handling of whitespace is changed"));
     environment.add_filter("plain", plain);
+    environment.add_global("colours", viewer::json(&colour::scales()));
     for (name, source) in TEMPLATES {
         environment
             .add_template(name, source)

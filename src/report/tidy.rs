@@ -7,10 +7,10 @@ use crate::experiment::results::{
     TextureInfo, mean_figures,
 };
 use crate::experiment::sequence::Sequence;
-use crate::metric::Step;
+use crate::metric::{Step, Z};
 
 /// The columns of `metrics.csv`, in order.
-pub const COLUMNS: [&str; 14] = [
+pub const COLUMNS: [&str; 16] = [
     "texture",
     "surface",
     "light",
@@ -25,16 +25,21 @@ pub const COLUMNS: [&str; 14] = [
     "spp",
     "metric",
     "value",
+    "low",
+    "high",
 ];
 
 /// One figure.
-struct Row<'a> {
+pub(super) struct Row<'a> {
     key: &'a SceneKey,
-    method: &'a str,
+    /// The method's label, or `reference`.
+    pub method: &'a str,
     /// `None` for what has no samples: a distribution.
-    spp: Option<u32>,
-    metric: &'a str,
+    pub spp: Option<u32>,
+    /// Which figure it is.
+    pub metric: &'a str,
     value: f64,
+    interval: Option<[f64; 2]>,
 }
 
 /// `metrics.csv`.
@@ -56,6 +61,8 @@ pub fn csv(results: &Results) -> Vec<u8> {
             row.spp.map_or_else(String::new, |spp| spp.to_string()),
             row.metric.to_owned(),
             round_trip(row.value),
+            row.interval.map_or_else(String::new, |[low, _]| round_trip(low)),
+            row.interval.map_or_else(String::new, |[_, high]| round_trip(high)),
         ]
     });
     table(COLUMNS, cells)
@@ -94,14 +101,27 @@ fn rows(results: &Results) -> impl Iterator<Item = Row<'_>> {
 }
 
 /// The reference's own error and mean first, then trials, then distributions.
-fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
+pub(super) fn scene_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
     reference_rows(scene).into_iter().chain(trial_rows(scene)).chain(probe_rows(scene))
 }
 
 fn reference_rows(scene: &SceneResult) -> [Row<'_>; 2] {
     let spp = Some(scene.reference.spp);
-    let row = |metric, value| Row { key: &scene.key, method: "reference", spp, metric, value };
-    [row("rmse", scene.reference.rmse), row("mean_radiance", super::contest::mean_radiance(scene))]
+    let row = |metric, value, interval| Row {
+        key: &scene.key,
+        method: "reference",
+        spp,
+        metric,
+        value,
+        interval,
+    };
+    let mean = super::contest::mean_radiance(scene);
+    // Pixels are independent: the variance of their mean is the mean of their variances over their number.
+    let error = Z * scene.reference.rmse / (scene.reference.variance.len() as f64).sqrt();
+    [
+        row("rmse", scene.reference.rmse, None),
+        row("mean_radiance", mean, Some([mean - error, mean + error])),
+    ]
 }
 
 fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
@@ -112,6 +132,7 @@ fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
             spp: Some(trial.spp),
             metric: &score.metric,
             value: score.value,
+            interval: score.interval,
         })
     })
 }
@@ -127,13 +148,21 @@ const DISTRIBUTIONS: [(&str, Figured); 3] =
 fn probe_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
     let probes = || scene.probes.iter().map(|probe| probe.methods.as_slice());
     DISTRIBUTIONS.into_iter().flat_map(move |(metric, figure)| {
-        let row = move |(method, value)| Row { key: &scene.key, method, spp: None, metric, value };
+        let row = move |(method, value)| Row {
+            key: &scene.key,
+            method,
+            spp: None,
+            metric,
+            value,
+            interval: None,
+        };
         mean_figures(probes(), figure).into_iter().map(row)
     })
 }
 
 #[derive(Serialize)]
 struct Document<'a> {
+    format: u32,
     experiment: &'a str,
     title: &'a str,
     question: &'a str,
@@ -179,6 +208,10 @@ struct Figure<'a> {
     spp: Option<u32>,
     metric: &'a str,
     value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -200,6 +233,7 @@ struct ProbedJson<'a> {
 /// `metrics.json`: the same figures scene by scene, with refusals, probes, methods and the spec.
 pub fn json(results: &Results) -> Vec<u8> {
     let document = Document {
+        format: super::FORMAT,
         experiment: &results.name,
         title: &results.title,
         question: &results.question,
@@ -238,6 +272,8 @@ fn scene_json(scene: &SceneResult) -> SceneJson<'_> {
         spp: row.spp,
         metric: row.metric,
         value: row.value,
+        low: row.interval.map(|[low, _]| low),
+        high: row.interval.map(|[_, high]| high),
     });
     SceneJson {
         slug: &scene.slug,

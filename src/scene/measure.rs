@@ -11,12 +11,12 @@ use crate::geometry::HemisphereGrid;
 use crate::lobe::{MultipleSurface, Spread};
 use crate::method::Prefiltered;
 use crate::metric;
-use crate::render::true_distribution;
+use crate::render::{Converged, true_distribution};
 use crate::texture::{Footprint, Lookup};
 
-/// A trial's scores against the reference: (metric, value), in the metrics' own order.
+/// A trial's scores against the reference, in the metrics' own order.
 #[derive(Component, Clone, Debug, PartialEq)]
-pub struct Scores(pub Vec<(&'static str, f64)>);
+pub struct Scores(pub Vec<metric::Scored>);
 
 /// What lies under a scene's chosen footprints.
 #[derive(Component, Clone, Debug)]
@@ -62,7 +62,7 @@ pub(super) fn plugin(schedule: &mut Schedule) {
 
 /// Scores one trial of the current scene that has a film.
 #[allow(clippy::type_complexity)]
-fn score(
+pub(super) fn score(
     mut commands: Commands,
     current: Res<Current>,
     references: Query<&ReferenceImage>,
@@ -72,13 +72,14 @@ fn score(
     let Ok(reference) = references.get(current.0) else { return };
     let ours = pending.iter().filter(|(_, trial, _)| trial.scene == current.0);
     let Some((trial, _, exposure)) = ours.min_by_key(|(entity, ..)| *entity) else { return };
-    let scores = metric::scores(&exposure.film, &reference.0.film);
+    let Converged { film, variance, .. } = &*reference.0;
+    let scores = metric::scores_with_intervals(&exposure.film, film, variance);
     commands.entity(trial).insert(Scores(scores));
     progress.write(Progress::Scored { trial });
 }
 
 /// Looks under the current scene's chosen footprints, once all its prefilters are there.
-fn probe(
+pub(super) fn probe(
     mut commands: Commands,
     current: Res<Current>,
     view: SceneView,

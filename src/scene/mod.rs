@@ -6,23 +6,27 @@
 //! An author (the experiment, on the floor above) spawns entities and names the scene to work at in
 //! [`Current`]. Every run of the schedule is a *tick*: each set, in order, does at most one piece of
 //! work for that scene — load its texture, build one prefilter, render one replicate of the reference,
-//! one trial, score one trial — and tells of it in a [`Progress`] message. When nothing is pending the
-//! scene is done. Systems run one after another, so that timings mean something, and use all cores
-//! inside.
+//! one trial, score one trial, draw up budgets — and tells of it in a [`Progress`] message. When nothing is
+//! pending the scene is done. Systems run one after another, so that timings mean something, and use all
+//! cores inside.
 
+mod budget;
 mod light;
 mod measure;
 mod prefilter;
 mod reference;
+mod settle;
 mod shelf;
 mod surface;
 mod texture;
 mod trial;
 
+pub use budget::{Balance, BudgetPlan, Budgets, Entry};
 pub use light::{Kindled, LightOrigin, MovedLight};
 pub use measure::{Held, Probe, ProbedMethod, Probes, Scores, Under, look_under};
 pub use prefilter::{BuildCost, LookupBy, Prefilter, PrefilterOf, SameAs, Strategy};
-pub use reference::ReferenceImage;
+pub use reference::{ReferenceImage, Replicates};
+pub use settle::Settled;
 pub use shelf::Shelf;
 pub use surface::{Shaped, SurfaceOrigin};
 pub use texture::{BumpSource, LoadError, Map, Texture};
@@ -54,6 +58,8 @@ pub enum Stage {
     Render,
     /// Trials gain scores; footprints are probed.
     Measure,
+    /// Errors are shared out among the parts of their methods.
+    Budget,
 }
 
 /// What a surface is made of.
@@ -111,10 +117,14 @@ pub struct TiledBefore(pub Entity);
 /// Samples of the scene's reference.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct ReferencePlan {
-    /// Samples a pixel, all replicates together.
+    /// Samples a pixel of each replicate.
     pub spp: u32,
-    /// Independent replicates, at least 2.
+    /// Independent replicates, at least 2. Doubled while it is open which trial is nearest, up to `most`.
     pub replicates: u32,
+    /// The most replicates there may be.
+    pub most: u32,
+    /// The least relative difference of root mean square errors that it is to tell apart.
+    pub gap: f64,
     /// Number of the first replicate, at least 1: replicate 0 belongs to the trials. References whose numbers
     /// differ share no random number.
     pub first: u32,
@@ -208,8 +218,23 @@ pub enum Progress {
         /// The trial.
         trial: Entity,
     },
+    /// The reference leaves open which trial is nearest: it is sampled further, and trials are scored again.
+    Undecided {
+        /// The scene.
+        scene: Entity,
+    },
+    /// The reference is as good as it needs to be, or as it may be.
+    Settled {
+        /// The scene.
+        scene: Entity,
+    },
     /// A scene's footprints were probed.
     Probed {
+        /// The scene.
+        scene: Entity,
+    },
+    /// The budgets of a scene's errors were drawn up.
+    Budgeted {
         /// The scene.
         scene: Entity,
     },
@@ -239,7 +264,14 @@ impl Stagehand {
             ..Default::default()
         });
         schedule.configure_sets(
-            (Stage::Texture, Stage::Prefilter, Stage::Reference, Stage::Render, Stage::Measure)
+            (
+                Stage::Texture,
+                Stage::Prefilter,
+                Stage::Reference,
+                Stage::Render,
+                Stage::Measure,
+                Stage::Budget,
+            )
                 .chain(),
         );
         for plugin in [
@@ -250,6 +282,8 @@ impl Stagehand {
             reference::plugin,
             trial::plugin,
             measure::plugin,
+            settle::plugin,
+            budget::plugin,
         ] {
             plugin(&mut schedule);
         }

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use bevy_ecs::prelude::*;
 
-use super::shelf::{Kept, Shelf};
+use super::shelf::{Kept, Key, Shelf};
 use super::{Current, Halt, Map, Material, Progress, SceneOf, Stage, Watch};
 use crate::lobe::BaseLobe;
 use crate::method::{self, Damaged, Method, PrefilterError, Prefiltered, Refusal};
@@ -63,7 +63,7 @@ fn prepare(
     mut commands: Commands,
     current: Res<Current>,
     (halt, watch, shelf): (Res<Halt>, Res<Watch>, Option<Res<Shelf>>),
-    (scenes, names): (Query<&SceneOf>, Query<&Name>),
+    scenes: Query<&SceneOf>,
     (maps, strategies, materials): (Query<&Map>, Query<&Strategy>, Query<&Material>),
     (pending, built): (
         Query<(Entity, &PrefilterOf, Option<&SameAs>), Without<Prefilter>>,
@@ -86,13 +86,8 @@ fn prepare(
     else {
         return;
     };
-    let name = |entity| names.get(entity).map_or("", Name::as_str);
     let order = Order { map: &map.normals, method: &*strategy.0, base: &material.base };
-    let place = shelf.as_deref().map(|shelf| {
-        let lobe = format!("{}-{}", order.base.name(), order.base.parameter());
-        let path = shelf.path(&format!("{}-{}-{lobe}", name(of.texture), name(of.strategy)));
-        Place { shelf, path }
-    });
+    let place = shelf.as_deref().map(|shelf| Place::of(shelf, &order));
     let mut note = |text| progress.write(Progress::Noted { text });
     let reloaded = place.as_ref().and_then(|place| {
         place.reload(&order).unwrap_or_else(|damaged| {
@@ -108,7 +103,7 @@ fn prepare(
     }
     let Some((built, cost)) = order.build(&Onlooker { halt: &halt, watch: &watch }) else { return };
     if let (Some(place), Ok(prefiltered)) = (&place, &built)
-        && let Err(error) = place.keep(&order, prefiltered.as_ref(), cost.secs)
+        && let Err(error) = place.keep(prefiltered.as_ref(), cost.secs)
     {
         let path = place.path.display();
         note(format!("cannot keep {path}: {error}; the next run builds it again"));
@@ -142,6 +137,7 @@ impl Order<'_> {
 /// Where a prefilter stands on the shelf.
 struct Place<'a> {
     shelf: &'a Shelf,
+    key: Key,
     path: PathBuf,
 }
 
@@ -151,25 +147,24 @@ struct Reloaded {
     cost: BuildCost,
 }
 
-impl Place<'_> {
+impl<'a> Place<'a> {
+    fn of(shelf: &'a Shelf, order: &Order) -> Self {
+        let key = shelf.key(order.map, order.method, order.base);
+        Self { shelf, path: shelf.path(&key), key }
+    }
+
     /// The prefilter and what building it took, if it stands there.
     fn reload(&self, order: &Order) -> Result<Option<Reloaded>, Damaged> {
-        // Most methods keep nothing: spare them the digest of the map.
-        if !self.path.exists() {
-            return Ok(None);
-        }
-        let key = self.shelf.key(order.map, order.method, order.base);
-        let Some(kept) = self.shelf.find(&self.path, &key)? else { return Ok(None) };
+        let Some(kept) = self.shelf.find(&self.path, &self.key)? else { return Ok(None) };
         let restored = order.method.restore(order.map, order.base, &kept.bytes)?;
         let cost = BuildCost { secs: kept.secs, bytes: restored.bytes() };
         Ok(Some(Reloaded { prefiltered: Arc::from(restored), cost }))
     }
 
     /// Puts a prefilter there, if it is of a kind that is kept.
-    fn keep(&self, order: &Order, built: &dyn Prefiltered, secs: f64) -> std::io::Result<()> {
+    fn keep(&self, built: &dyn Prefiltered, secs: f64) -> std::io::Result<()> {
         let Some(bytes) = built.store() else { return Ok(()) };
-        let key = self.shelf.key(order.map, order.method, order.base);
-        self.shelf.keep(&self.path, &key, &Kept { bytes, secs })
+        self.shelf.keep(&self.path, &self.key, &Kept { bytes, secs })
     }
 }
 

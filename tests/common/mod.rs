@@ -30,7 +30,7 @@ fn gather(root: &Path, folder: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     for path in entries.map(|entry| entry.unwrap().path()) {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if name == ".state" || name.starts_with("costs.") {
+        if name == ".state" || name == ".shards" || name.starts_with("costs.") {
             continue;
         }
         if path.is_dir() {
@@ -57,4 +57,43 @@ pub fn assert_same(one: &Path, other: &Path) {
 /// The repository.
 pub fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files under a folder, in order.
+pub fn files_under(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(files_under(&path));
+        } else {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+/// The records that a run has kept in its folder, with what each was called when it was kept, such as
+/// `SCENE/fournier-4spp`.
+pub fn records(results: &Path) -> Vec<(PathBuf, String)> {
+    let called = |path: PathBuf| {
+        let text = std::fs::read(&path).ok()?;
+        let head: serde_json::Value =
+            serde_json::from_slice(text.split(|b| *b == b'\n').next()?).ok()?;
+        let of = head["of"].as_str()?.to_owned();
+        Some((path, of))
+    };
+    files_under(&results.join(".state/records")).into_iter().filter_map(called).collect()
+}
+
+/// How many trials a run has kept.
+pub fn trials_kept(results: &Path) -> usize {
+    records(results).iter().filter(|(_, of)| of.ends_with("spp")).count()
+}
+
+/// When each file under a folder was last written.
+pub fn written(folder: &Path) -> Vec<(PathBuf, std::time::SystemTime)> {
+    let time = |path: &PathBuf| std::fs::metadata(path).unwrap().modified().unwrap();
+    files_under(folder).into_iter().map(|path| (path.clone(), time(&path))).collect()
 }

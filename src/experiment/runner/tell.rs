@@ -1,8 +1,8 @@
 //! What a run tells of what it found.
 
 use super::super::author::{PlannedScene, PlannedTrial};
-use super::super::results::mean_distances;
-use super::super::store::{ProbeRecord, TrialRecord};
+use super::super::results::{Score, mean_distances};
+use super::super::store::ProbeRecord;
 use super::{Run, RunEvent};
 use crate::metric::Flicker;
 use crate::render::Film;
@@ -14,7 +14,8 @@ impl Run<'_> {
         &self,
         scene: &PlannedScene,
         trial: &PlannedTrial,
-        record: TrialRecord,
+        scores: Vec<Score>,
+        cpu_secs: f64,
         kept: bool,
     ) {
         let pixels = (self.spec.image.width * self.spec.image.height) as f64;
@@ -22,8 +23,8 @@ impl Run<'_> {
             scene: scene.slug.clone(),
             method: self.spec.sweep.methods[trial.method].label.clone(),
             spp: trial.spp,
-            scores: record.scores,
-            ns_per_pixel: record.cpu_secs * 1e9 / pixels,
+            scores,
+            ns_per_pixel: cpu_secs * 1e9 / pixels,
             kept,
         });
     }

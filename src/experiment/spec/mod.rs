@@ -4,6 +4,7 @@
 //! wrong, each with its place in the file, what would be right, and the nearest name to a misspelt
 //! one. `docs/experiments.md` is the manual of the format.
 
+mod budget;
 mod catalogue;
 mod error;
 mod item;
@@ -33,6 +34,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
 
+pub use budget::BudgetSpec;
 pub use error::{SpecError, SpecErrors};
 pub use light::{EnvironmentSource, LightSpec};
 pub use method::MethodSpec;
@@ -48,6 +50,7 @@ pub use texture::{MAX_REPEATED, Reading, TextureSource, TextureSpec};
 use crate::lobe::Shading;
 use crate::method::Truth;
 use crate::surface::Perturbation;
+use budget::Surroundings;
 use catalogue::Catalogue;
 use log::Log;
 use material::Material;
@@ -83,6 +86,8 @@ pub struct Spec {
     pub motion: Option<MotionSpec>,
     /// What is combined with what.
     pub sweep: SweepSpec,
+    /// Which errors are shared out among the parts of their methods; None if none are.
+    pub budget: Option<BudgetSpec>,
     /// The file as written.
     pub text: String,
 }
@@ -225,6 +230,15 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
     if surface.perturbation != Perturbation::Tangent {
         check_bends(root, &sweep, reference.truth);
     }
+    let around = Surroundings {
+        sweep: &sweep,
+        shading: material.shading,
+        environment: everywhere,
+        moves: motion.is_some(),
+    };
+    let wanted = root.item("budget").is_some();
+    let budget =
+        wanted.then(|| root.section("budget", "[budget]", |r| BudgetSpec::read(r, &around)));
     Spec {
         name,
         title,
@@ -238,6 +252,7 @@ fn read_spec(root: &Reader, catalogue: &Catalogue, name: &str, text: &str) -> Sp
         reference,
         motion,
         sweep,
+        budget,
         text: text.to_owned(),
     }
 }

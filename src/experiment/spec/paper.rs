@@ -112,6 +112,14 @@ impl Experiment {
         }
     }
 
+    /// Its file as written.
+    pub fn text(&self) -> &str {
+        match self {
+            Self::Sweep(spec) => &spec.text,
+            Self::Paper(spec) => &spec.text,
+        }
+    }
+
     /// Its title.
     pub fn title(&self) -> &str {
         match self {

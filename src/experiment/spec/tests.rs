@@ -62,7 +62,10 @@ fn everything_but_textures_and_methods_has_a_default() {
     let light = LightSpec::Directional { elevation: 40.0, azimuth: 90.0, irradiance: 1.0 };
     assert_eq!(spec.light, light);
     assert_eq!(spec.shading, Shading::Ndf);
-    assert_eq!(spec.reference, ReferenceSpec { spp: 4096, replicates: 4, truth: Truth::Bumps });
+    assert_eq!(
+        spec.reference,
+        ReferenceSpec { spp: 4096, replicates: 4, most: 16384, gap: 0.01, truth: Truth::Bumps }
+    );
     assert_eq!(spec.sweep.spp, [1, 4, 16, 64]);
     assert_eq!(spec.sweep.unfiltered_spp, [1, 4, 16, 64, 256]);
     assert_eq!(spec.sweep.scale, Scale::TexelsPerPixel(vec![1.0, 4.0, 16.0, 64.0]));

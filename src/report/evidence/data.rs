@@ -1,5 +1,6 @@
 //! `evidence.json`, `evidence.csv` and `tables/*.csv`: full precision, nothing timed.
 
+use serde::Serialize;
 use serde_json::Value;
 
 use super::file_name;
@@ -60,7 +61,14 @@ fn cells(table: &Table) -> Vec<u8> {
 /// `evidence.json`: the evidence without films and without what is timed; a number that is not finite is
 /// `null`.
 pub fn json(evidence: &Evidence) -> Vec<u8> {
-    let mut document = serde_json::to_value(evidence).expect("the keys are strings");
+    #[derive(Serialize)]
+    struct Document<'a> {
+        format: u32,
+        #[serde(flatten)]
+        evidence: &'a Evidence,
+    }
+    let document = Document { format: crate::report::FORMAT, evidence };
+    let mut document = serde_json::to_value(document).expect("the keys are strings");
     let exhibits = document.get_mut("exhibits").and_then(Value::as_array_mut);
     for exhibit in exhibits.into_iter().flatten().filter_map(Value::as_object_mut) {
         exhibit.shift_remove("timed");

@@ -17,6 +17,7 @@ pub fn flicker(race: &Race) -> Table {
                 text: standing.wrong.map_or_else(String::new, percent),
                 aside: worth.map_or_else(String::new, samples_short),
                 best: standing.best,
+                ..Cell::default()
             },
             ratio(standing.flicker.ratio()),
             figure(standing.flicker.mean.change),

@@ -265,7 +265,7 @@ mod tests {
     use crate::experiment::results::Score;
 
     fn scored(scene: &str, method: &str, spp: u32, rmse: f64) -> RunEvent {
-        let scores = vec![Score { metric: "rmse".into(), value: rmse }];
+        let scores = vec![Score { metric: "rmse".into(), value: rmse, interval: None }];
         let (scene, method) = (scene.to_owned(), method.to_owned());
         RunEvent::Scored { scene, method, spp, scores, ns_per_pixel: 7.0, kept: false }
     }

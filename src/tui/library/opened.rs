@@ -52,6 +52,9 @@ pub fn open(folder: &Path) -> Opened {
         opened.problems.push(format!("there is no folder {}", folder.display()));
     } else if reports::kind_of(folder) == Kind::Paper {
         opened.kind = Kind::Paper;
+        if let Ok(bytes) = std::fs::read(folder.join("evidence.json")) {
+            rows::is_known("evidence.json", &bytes, &mut opened.problems);
+        }
         opened.paper = claims::rows(folder, &mut opened.problems);
         opened.title = reports::title_of(folder);
     } else {

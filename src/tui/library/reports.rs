@@ -8,6 +8,7 @@ use super::Kind;
 use super::images::entries;
 use super::opened::parts;
 use super::text::{clean, lead};
+use crate::experiment::manifest::Manifest;
 
 /// A report as it is listed.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,8 +44,9 @@ pub fn reports(folder: &Path) -> Vec<Report> {
 
 /// A paper's, if it has what only they have; else a sweep's.
 pub(super) fn kind_of(folder: &Path) -> Kind {
-    let paper = ["evidence.csv", "evidence.json", ".state/rows"];
-    let is_paper = paper.iter().any(|name| folder.join(name).exists());
+    let paper = ["evidence.csv", "evidence.json"];
+    let is_paper = paper.iter().any(|name| folder.join(name).exists())
+        || Manifest::read(folder).is_ok_and(|manifest| manifest.paper);
     if is_paper { Kind::Paper } else { Kind::Sweep }
 }
 

@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::bytes_of;
 use super::text::clean;
+use crate::report::check_format;
 
 /// One figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +63,29 @@ pub(super) struct Figure {
 /// `metrics.json` of a report; `None`, with a sentence, if it is of no use.
 pub(super) fn metrics_json(folder: &Path, problems: &mut Vec<String>) -> Option<Metrics> {
     let bytes = bytes_of(&folder.join("metrics.json"), problems)?;
+    if !is_known("metrics.json", &bytes, problems) {
+        return None;
+    }
     let read = serde_json::from_slice(&bytes);
     read.map_err(|error| problems.push(format!("metrics.json cannot be read: {error}"))).ok()
+}
+
+/// Whether a JSON file of a report is of a version that this program reads; a sentence if not. Version 1 does not say
+/// which it is.
+pub(super) fn is_known(name: &str, bytes: &[u8], problems: &mut Vec<String>) -> bool {
+    #[derive(Deserialize)]
+    struct Version {
+        format: Option<u32>,
+    }
+    let version: Option<Version> = serde_json::from_slice(bytes).ok();
+    let format = version.and_then(|version| version.format).unwrap_or(1);
+    match check_format(format) {
+        Ok(()) => true,
+        Err(newer) => {
+            problems.push(format!("{name}: {newer}"));
+            false
+        }
+    }
 }
 
 impl Metrics {

@@ -92,7 +92,8 @@ pub fn scene(number: usize, slug: &str, methods_done: usize) -> Vec<RunEvent> {
     ];
     for (place, (label, _)) in methods().into_iter().enumerate().take(methods_done) {
         for (spp, rmse) in curve(place, number) {
-            let score = |metric: &str, value| Score { metric: metric.into(), value };
+            let score =
+                |metric: &str, value| Score { metric: metric.into(), value, interval: None };
             told.push(RunEvent::Scored {
                 scene: name.clone(),
                 method: label.clone(),

@@ -1,5 +1,6 @@
-// Flips the images of a scene in place: click one, then arrow or number keys or buttons; Escape shows all again.
-for (const scene of document.querySelectorAll(".scene")) {
+// Flips pictures in place: click one, then arrow or number keys or buttons; Escape shows all again.
+
+const flip = (scene) => {
   const figures = [...scene.querySelectorAll(".frames figure")];
   const keys = document.createElement("div");
   keys.className = "keys";
@@ -36,4 +37,4 @@ for (const scene of document.querySelectorAll(".scene")) {
     } else if (/^[1-9]$/.test(event.key)) show(Number(event.key) - 1);
   });
   show(-1);
-}
+};
