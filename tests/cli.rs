@@ -57,7 +57,7 @@ fn refused(folder: &Path, args: &[&str], code: i32) -> String {
 fn help_is_the_manual() {
     let help = |args: &[&str]| out(&output(repository(), args));
     insta::assert_snapshot!("help", help(&["--help"]));
-    for command in ["run", "list", "render", "lobes", "compare", "fit", "bake"] {
+    for command in ["run", "merge", "verify", "list", "render", "lobes", "compare", "fit", "bake"] {
         let text = help(&[command, "--help"]);
         assert!(text.contains("Examples:"), "{command} has no example");
         insta::assert_snapshot!(format!("help_{command}"), text);

@@ -1,9 +1,17 @@
 //! Costs, kept apart from everything reproducible: `costs.csv` and `costs.md`.
 
+use minijinja::context;
+use minijinja::value::Serde;
+use serde::Serialize;
+
 use super::contest::{Comparison, brute_force_curve, geometric_mean, median};
+use super::equal_cost;
+use super::figure::Figure;
 use super::page;
+use super::pareto;
 use super::phrase;
 use super::tables::{Cell, Table, label};
+use super::template::render;
 use super::tidy::{round_trip, table};
 use crate::experiment::results::{Costs, Results, SceneResult};
 use crate::metric::{SpeedUp, equivalent_samples};
@@ -43,16 +51,49 @@ pub fn csv(costs: &Costs) -> Vec<u8> {
     table(COLUMNS, prefilters.chain(trials))
 }
 
-/// `costs.md`: what each method costs and what it saves.
-pub fn markdown(results: &Results, costs: &Costs) -> String {
-    let comparison = Comparison::of(results);
-    let intro = format!(
-        "The whole run took {} s on {}. These figures vary from run to run and machine to machine; \
-         everything else in this folder does not.",
-        phrase::number(costs.total_secs),
-        phrase::count(costs.threads, "thread"),
-    );
-    page::costs(&results.title, &intro, &[summary(&comparison, costs)])
+/// What each method costs and what it saves, before it is set.
+#[derive(Serialize)]
+pub struct CostPage {
+    title: String,
+    question: String,
+    intro: String,
+    /// Error against time.
+    pub plot: Option<Figure>,
+    tables: Vec<Table>,
+}
+
+impl CostPage {
+    /// The costs of these results.
+    pub fn of(results: &Results, costs: &Costs) -> Self {
+        let comparison = Comparison::of(results);
+        let caption = "RMSE against CPU time, at every number of samples measured: geometric mean of the one, median of \
+                       the other, over the scenes that every method took part in. Prefiltering is not counted.";
+        let plot = pareto::time(&comparison, costs);
+        Self {
+            title: format!("{}: costs", results.title),
+            question: "What does each filter cost, on the machine that ran it?".into(),
+            intro: format!(
+                "The whole run took {} s on {}. These figures vary from run to run and machine to machine; everything \
+                 else in this folder does not, so they stand apart.",
+                phrase::number(costs.total_secs),
+                phrase::count(costs.threads, "thread"),
+            ),
+            plot: plot.map(|plot| Figure::drawing("costs.png".into(), caption.into(), &plot)),
+            tables: std::iter::once(summary(&comparison, costs))
+                .chain(equal_cost::table(&comparison, costs))
+                .collect(),
+        }
+    }
+}
+
+/// `costs.md`.
+pub fn markdown(page: &CostPage) -> String {
+    page::costs(&page.title, &page.intro, page.plot.as_ref(), &page.tables)
+}
+
+/// `costs.html`: the same as a page.
+pub fn html(page: &CostPage) -> String {
+    render("costs.html", context! { page => Serde(page) })
 }
 
 fn summary(comparison: &Comparison, costs: &Costs) -> Table {
@@ -159,7 +200,7 @@ mod tests {
 
     #[test]
     fn no_costs_is_a_table_with_empty_cells() {
-        let text = markdown(&fixture::results(), &Costs::default());
+        let text = markdown(&CostPage::of(&fixture::results(), &Costs::default()));
         assert!(text.contains("| fournier |"), "{text}");
     }
 }

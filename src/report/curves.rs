@@ -12,7 +12,7 @@ use super::tables::label;
 use crate::experiment::results::{MethodInfo, SceneResult};
 
 /// The methods with their styles.
-fn styled<'a>(comparison: &Comparison<'a>) -> impl Iterator<Item = (&'a MethodInfo, Style)> {
+pub fn styled<'a>(comparison: &Comparison<'a>) -> impl Iterator<Item = (&'a MethodInfo, Style)> {
     comparison.results.methods.iter().zip(styles(&comparison.results.methods))
 }
 
@@ -28,18 +28,20 @@ pub struct Overall {
     pub slope: Option<f64>,
 }
 
-/// Error against samples a pixel, the geometric mean over the scenes that every method took part in
-/// (over all scenes if there are none). `None` if nothing was measured.
-pub fn overall(comparison: &Comparison) -> Option<Overall> {
+/// The scenes that every method took part in, and true; all scenes, and false, if there are none.
+pub fn shared_scenes<'a>(comparison: &Comparison<'a>) -> (Vec<&'a SceneResult>, bool) {
     let labels = comparison.results.methods.iter().map(|m| &m.label);
     let takes_part = |scene: &SceneResult, label: &str| !curve(scene, label).is_empty();
     let full = |scene: &SceneResult| labels.clone().all(|label| takes_part(scene, label));
     let measured: Vec<_> = comparison.contests().map(|c| c.scene).collect();
-    let mut scenes: Vec<_> = measured.iter().copied().filter(|s| full(s)).collect();
-    let complete = !scenes.is_empty();
-    if !complete {
-        scenes = measured;
-    }
+    let shared: Vec<_> = measured.iter().copied().filter(|s| full(s)).collect();
+    if shared.is_empty() { (measured, false) } else { (shared, true) }
+}
+
+/// Error against samples a pixel, the geometric mean over the scenes that every method took part in
+/// (over all scenes if there are none). `None` if nothing was measured.
+pub fn overall(comparison: &Comparison) -> Option<Overall> {
+    let (scenes, complete) = shared_scenes(comparison);
     let curves: Vec<_> = styled(comparison)
         .map(|(method, style)| Curve { method, style, points: mean_curve(&scenes, &method.label) })
         .filter(|c| !c.points.is_empty())
@@ -54,7 +56,7 @@ pub fn overall(comparison: &Comparison) -> Option<Overall> {
 }
 
 /// The geometric mean of a method's errors at each number of samples that all its scenes have.
-fn mean_curve(scenes: &[&SceneResult], label: &str) -> Vec<(f64, f64)> {
+pub fn mean_curve(scenes: &[&SceneResult], label: &str) -> Vec<(f64, f64)> {
     let curves: Vec<_> = scenes.iter().map(|s| curve(s, label)).filter(|c| !c.is_empty()).collect();
     let mut counts = unique(curves.iter().flatten().map(|(spp, _)| *spp));
     counts.sort_unstable();
@@ -105,10 +107,16 @@ fn draw_overall(curves: &[Curve], floor: Option<f64>) -> Canvas {
     canvas
 }
 
-/// A line of slope −½ from the start of the brute-force curve: how independent samples converge.
+/// Lines of slope −½ and −1 from the start of the brute-force curve: how independent samples converge, and how
+/// well-spread ones may at best where the integrand is not smooth.
 fn slope_guide(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     let Some(brute) = curves.iter().find(|c| c.style.heavy) else { return };
     let [first, .., last] = brute.points[..] else { return };
+    let steep = (last.0, (first.1 * first.0 / last.0).max(panel.y.low));
+    let cut = (first.1 * first.0 / steep.1).min(last.0);
+    let line = [panel.at(first.0, first.1), panel.at(cut, steep.1)];
+    canvas.line(&line, GREY, 1.0, Some([1.0, 4.0]));
+    canvas.text([line[1][0] - 34.0, line[1][1] - 8.0], "−1", SMALL);
     let end = (last.0, first.1 * (first.0 / last.0).sqrt());
     let line = [panel.at(first.0, first.1), panel.at(end.0, end.1)];
     canvas.line(&line, GREY, 1.2, Some([1.5, 2.5]));
@@ -120,7 +128,8 @@ fn slope_guide(canvas: &mut Canvas, panel: &Panel, curves: &[Curve]) {
     canvas.text(at, NAME, Type { anchor: Anchor::End, ..SMALL });
 }
 
-fn axis_titles(canvas: &mut Canvas, panel: &Panel, across: &str) {
+/// Names both axes; the one that goes up is RMSE.
+pub fn axis_titles(canvas: &mut Canvas, panel: &Panel, across: &str) {
     let middle = [panel.corner[0] + 0.5 * panel.size[0], panel.bottom() + 36.0];
     canvas.text(middle, across, Type { ink: BLACK, ..MIDDLE });
     let left = [panel.corner[0] - 48.0, panel.corner[1] + 0.5 * panel.size[1]];

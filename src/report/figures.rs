@@ -12,14 +12,16 @@ use super::sheet::{self, Frames};
 use super::source::Lines;
 use super::viewer::{Viewer, viewer};
 
-use super::{budget, curves, disc};
-use crate::experiment::results::{Probe, Results, SceneResult, TextureInfo, TrialResult};
+use super::{budget, curves, disc, pareto};
+use crate::experiment::results::{Costs, Probe, Results, SceneResult, TextureInfo, TrialResult};
 
 /// The figures of a report.
 #[derive(Serialize)]
 pub struct Figures {
     /// Error against samples over all scenes.
     overall: Option<Figure>,
+    /// Error against memory.
+    memory: Option<Figure>,
     /// Figures of each setting: error against scale, error against samples scene by scene.
     settings: Vec<SettingFigures>,
     /// Figures of each scene.
@@ -67,11 +69,12 @@ struct FilmFile {
 
 impl Figures {
     /// Draws every figure.
-    pub fn of(results: &Results) -> Self {
+    pub fn of(results: &Results, costs: &Costs) -> Self {
         let comparison = Comparison::of(results);
         let settings = comparison.settings.iter().enumerate();
         Self {
             overall: overall(&comparison),
+            memory: memory(&comparison, costs),
             settings: settings.map(|(i, s)| setting_figures(&comparison, s, i + 1)).collect(),
             scenes: scenes(results, comparison.spp),
             budget: budget::Section::of(&comparison),
@@ -84,7 +87,8 @@ impl Figures {
         let settings = self.settings.iter().flat_map(|s| &s.figures);
         let scenes = self.scenes.iter().flat_map(|s| std::iter::once(&s.sheet).chain(&s.probes));
         let budgets = self.budget.iter().flat_map(budget::Section::figures);
-        let all = self.overall.iter().chain(settings).chain(scenes).chain(budgets);
+        let all =
+            self.overall.iter().chain(&self.memory).chain(settings).chain(scenes).chain(budgets);
         all.map(|figure| (figure.file.as_str(), figure.png.as_slice()))
     }
 }
@@ -146,6 +150,17 @@ fn overall(comparison: &Comparison) -> Option<Figure> {
         count(plot.scenes, "scene"),
     );
     Some(Figure::drawing("plots/samples.png".into(), caption, &plot.drawing))
+}
+
+fn memory(comparison: &Comparison, costs: &Costs) -> Option<Figure> {
+    let caption = format!(
+        "RMSE at {} a pixel, the geometric mean over the scenes that every method took part in, against the memory \
+         that a method holds beside the normal map, the median over maps. What is on the front is beaten by no \
+         method in both.",
+        count(comparison.spp as usize, "sample"),
+    );
+    let drawing = pareto::memory(comparison, costs)?;
+    Some(Figure::drawing("plots/memory.png".into(), caption, &drawing))
 }
 
 fn setting_figures(comparison: &Comparison, setting: &Setting, number: usize) -> SettingFigures {

@@ -9,7 +9,7 @@
 //! | `flicker.csv` | of things that move: one row a method and figure of flicker | yes |
 //! | `plots/*.png`, `images/*.png` | what the reports show | yes |
 //! | `animations/*.png`, `frames/*.png` | of things that move: animated PNG files, and one file a frame | yes |
-//! | `costs.csv`, `costs.md` | times and memory | no |
+//! | `costs.csv`, `costs.md`, `costs.html`, `costs.png` | times and memory | no |
 //!
 //! [`write_evidence`] does the same for what was found about a paper.
 
@@ -26,6 +26,7 @@ mod contest;
 mod costs;
 mod curves;
 mod disc;
+mod equal_cost;
 mod evidence;
 mod figure;
 mod figures;
@@ -38,9 +39,11 @@ mod lobe_sheet;
 mod mark;
 mod motion;
 mod page;
+mod pareto;
 pub(crate) mod phrase;
 mod png;
 mod polar;
+mod program;
 mod ranking;
 mod scale;
 mod sheet;
@@ -86,7 +89,12 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
         folder.put("budget.csv", &budget::csv::csv(results))?;
     }
     folder.put("costs.csv", &costs::csv(costs))?;
-    folder.put("costs.md", costs::markdown(results, costs).as_bytes())?;
+    let cost_page = costs::CostPage::of(results, costs);
+    folder.put("costs.md", costs::markdown(&cost_page).as_bytes())?;
+    folder.put("costs.html", costs::html(&cost_page).as_bytes())?;
+    if let Some(plot) = &cost_page.plot {
+        folder.put(&plot.file, &plot.png)?;
+    }
     if !results.sequences.is_empty() {
         let page = motion::page::Page::of(results);
         for (name, bytes) in page.files() {
@@ -96,7 +104,7 @@ pub fn write(results: &Results, costs: &Costs, out: &Path) -> Result<Vec<PathBuf
         folder.put("report.html", motion::page::html(&page).as_bytes())?;
         return Ok(folder.written());
     }
-    let figures = figures::Figures::of(results);
+    let figures = figures::Figures::of(results, costs);
     for (name, png) in figures.files() {
         folder.put(name, png)?;
     }
@@ -149,6 +157,6 @@ mod tests {
         let differ = written[0].iter().zip(&written[1]);
         let differ = differ.filter(|(a, b)| std::fs::read(a).unwrap() != std::fs::read(b).unwrap());
         let names: Vec<_> = differ.map(|(a, _)| a.file_name().unwrap().to_owned()).collect();
-        assert_eq!(names, ["costs.csv", "costs.md"]);
+        assert_eq!(names, ["costs.csv", "costs.md", "costs.html", "costs.png"]);
     }
 }

@@ -6,7 +6,9 @@ use serde::Serialize;
 
 use super::answer::answer;
 use super::contest::{Comparison, unique};
+use super::figure::Figure;
 use super::figures::Figures;
+use super::program::Program;
 use super::ranking;
 use super::source::Lines;
 use super::split;
@@ -38,6 +40,7 @@ pub struct Page<'a> {
     reading: &'static str,
     spec: &'a str,
     seed: u64,
+    program: Program,
     /// `metrics.csv`, packed, for the rows behind figures.
     rows: String,
 }
@@ -97,6 +100,7 @@ impl<'a> Page<'a> {
             reading: words::DISTRIBUTIONS,
             spec: &results.spec,
             seed: results.seed,
+            program: Program::this(),
             rows: pack::packed(&tidy::csv(results)),
         }
     }
@@ -130,8 +134,8 @@ pub fn html(page: &Page) -> String {
 }
 
 /// `costs.md`.
-pub fn costs(title: &str, intro: &str, tables: &[Table]) -> String {
-    render("costs.md", context! { title, intro, tables => Serde(tables) })
+pub fn costs(title: &str, intro: &str, plot: Option<&Figure>, tables: &[Table]) -> String {
+    render("costs.md", context! { title, intro, plot => Serde(plot), tables => Serde(tables) })
 }
 
 #[cfg(test)]
@@ -141,12 +145,11 @@ mod tests {
 
     #[test]
     fn the_markdown_report() {
-        let results = fixture::results();
-        insta::assert_snapshot!(markdown(&Page::of(
-            &results,
-            &fixture::costs(),
-            &Figures::of(&results)
-        )));
+        let (results, costs) = (fixture::results(), fixture::costs());
+        let figures = Figures::of(&results, &costs);
+        let mut page = Page::of(&results, &costs, &figures);
+        page.program = Program::fixed();
+        insta::assert_snapshot!(markdown(&page));
     }
 
     #[test]
@@ -154,7 +157,7 @@ mod tests {
         let mut results = fixture::results();
         results.scenes.clear();
         results.textures.clear();
-        let figures = Figures::of(&results);
+        let figures = Figures::of(&results, &fixture::costs());
         let page = Page::of(&results, &fixture::costs(), &figures);
         assert!(markdown(&page).contains("Nothing was measured"));
         assert!(html(&page).contains("Nothing was measured"));
@@ -169,7 +172,8 @@ mod tests {
         for scene in &mut results.scenes {
             scene.key.texture = hostile.into();
         }
-        let page = html(&Page::of(&results, &fixture::costs(), &Figures::of(&results)));
+        let page =
+            html(&Page::of(&results, &fixture::costs(), &Figures::of(&results, &fixture::costs())));
         assert!(page.contains("&lt;script&gt;alert(1)"));
         assert!(!page.contains("<script>alert"));
         assert!(!page.contains("\" onload=\""));

@@ -4,7 +4,7 @@ use super::{colour, viewer};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 29] = [
+const TEMPLATES: [(&str, &str); 30] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
@@ -34,6 +34,7 @@ const TEMPLATES: [(&str, &str); 29] = [
     ("script/flip.js", include_str!("templates/script/flip.js")),
     ("script/main.js", include_str!("templates/script/main.js")),
     ("costs.md", include_str!("templates/costs.md")),
+    ("costs.html", include_str!("templates/costs.html")),
 ];
 
 /// Fills in a template by its name.

@@ -57,7 +57,12 @@ pub fn markdown(evidence: &Evidence, row_secs: &[(String, f64)]) -> String {
         notes: Vec::new(),
     };
     let timed = evidence.exhibits.iter().flat_map(timed);
-    page::costs(&evidence.title, &intro, &std::iter::once(seconds).chain(timed).collect::<Vec<_>>())
+    page::costs(
+        &format!("{}: costs", evidence.title),
+        &intro,
+        None,
+        &std::iter::once(seconds).chain(timed).collect::<Vec<_>>(),
+    )
 }
 
 fn timed(exhibit: &Exhibit) -> Vec<Table> {

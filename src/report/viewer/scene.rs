@@ -74,7 +74,7 @@ fn worth(remark: &str, trial: &TrialResult, curve: &[(u32, f64)]) -> String {
     let found = trial.score(DECIDES).and_then(|error| equivalent_samples(curve, error));
     found.map_or_else(
         || remark.to_owned(),
-        |worth| format!("{remark}, worth {} spp", phrase::samples_short(worth)),
+        |worth| format!("{remark}, worth {}\u{a0}spp", phrase::samples_short(worth)),
     )
 }
 

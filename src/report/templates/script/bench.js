@@ -42,7 +42,7 @@ class Bench {
       make("label", { class: "group" }, "against ", this.other),
       make("span", { class: "group" }, this.wipe),
       make("span", { class: "group" }, tool("−", "Shift+E: darker", () => expose(scene, -0.5)), this.exposure, tool("+", "e: brighter", () => expose(scene, 0.5))),
-      make("span", { class: "group" }, tool("zoom out", "−", () => scene.look((camera) => camera.zoomBy(0.5))), tool("zoom in", "+", () => scene.look((camera) => camera.zoomBy(2))), tool("fit", "f", () => scene.showInset(-1)), tool("inset", "i: the next", () => scene.nextInset())),
+      make("span", { class: "group" }, tool("−", "zoom out", () => scene.look((camera) => camera.zoomBy(0.5))), "zoom", tool("+", "zoom in", () => scene.look((camera) => camera.zoomBy(2))), tool("fit", "f", () => scene.showInset(-1)), tool("inset", "i: the next", () => scene.nextInset())),
       make("span", { class: "group" }, tool("?", "all keys", showHelp)),
     );
   }
@@ -142,7 +142,7 @@ class Bench {
       context.restore();
     }
     const filmAt = (share) => (wiped && share > state.wipe ? state.other : scene.shown);
-    drawGrid(context, seen, width, height, (x, y, share) => figure(scene.valueAt(map, filmAt(share), x, y)));
+    drawGrid(context, seen, scene.settings.width, width, height, (x, y, share) => figure(scene.valueAt(map, filmAt(share), x, y)));
     drawFrames(context, scene.insets, seen, width, height);
     if (state.drawn) drawFrames(context, [state.drawn], seen, width, height);
     if (state.at) drawMark(context, state.at, seen, width, height);

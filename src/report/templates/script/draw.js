@@ -45,10 +45,10 @@ const drawMark = (context, [x, y], seen, width, height) => {
   }
 };
 
-/** A grid between pixels that are large, and their values if they are larger. */
-const drawGrid = (context, seen, width, height, valueAt) => {
+/** A grid between pixels that were zoomed to some size, and their values if they are larger. */
+const drawGrid = (context, seen, fullWidth, width, height, valueAt) => {
   const size = width / seen.width;
-  if (size < GRID) return;
+  if (size < GRID || size <= width / fullWidth) return;
   const [x0, y0] = [Math.floor(seen.x), Math.floor(seen.y)];
   const [x1, y1] = [Math.ceil(seen.x + seen.width), Math.ceil(seen.y + seen.height)];
   context.lineWidth = 0.5;
