@@ -133,6 +133,11 @@ fn codes_can_be_scored_as_light() {
     let stored = json(path, &["a.png", "r.png"])["rmse"].as_f64().unwrap();
     let light = json(path, &["a.png", "r.png", "--encoding", "linear"])["rmse"].as_f64().unwrap();
     assert!(stored != light);
+    let (_, out, _) = compare(path, &["a.png", "r.png", "--metric", "psnr"]);
+    assert!(
+        out.ends_with("20 × 16 pixels, 1 channel of codes for a display, as stored; L is 1\n"),
+        "{out}"
+    );
     let (code, _, err) = compare(path, &["a.png", "r.exr"]);
     assert_eq!((code, err.contains("--encoding linear")), (Some(2), true), "{err}");
     // The picture shows half the radiance, cut at 1.

@@ -258,8 +258,8 @@ pub struct LobesArgs {
   wrinkle compare mine.exr reference.exr --map error.png --map-kind flip
   wrinkle compare a.exr b.exr --json
 
-Exits with 0 if no limit is broken, with 1 if one is, and with 2 if the request is wrong. Every metric, its formula and
-where it is from: docs/metrics.md.")]
+Exits with 0 if no limit is broken, with 1 if one is, and with 2 if the request is wrong. docs/metrics.md has every
+metric, its formula and its source.")]
 pub struct CompareArgs {
     /// The image to score: EXR, HDR, PNG, TIFF or WebP.
     #[arg(value_name = "A")]

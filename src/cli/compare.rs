@@ -47,6 +47,7 @@ pub(super) fn compare(args: &CompareArgs, out: &mut dyn Write) -> Result<Exit, F
         print_json(&scores, out)?;
     } else {
         print(&scores, out)?;
+        writeln!(out, "{}", compared(&reference, viewing.values))?;
     }
     if let Some(path) = &args.map {
         map::write(&args.map_kind, &test.channels, &reference.channels, &viewing, path)?;
@@ -140,6 +141,18 @@ fn left_out(image: &StoredImage, path: &Path) {
     if !image.left_out.is_empty() {
         tell(format_args!("{}: not compared: {}", path.display(), image.left_out.join(", ")));
     }
+}
+
+/// What was compared, and the data range its metrics had.
+fn compared(image: &StoredImage, values: Values) -> String {
+    let film = &image.channels[0];
+    let (what, range) = match values {
+        Values::Radiances => ("radiances", "L is the reference's greatest"),
+        Values::Codes => ("codes for a display, as stored", "L is 1"),
+        Values::Light => ("light of a display", "L is 1"),
+    };
+    let channels = if image.channels.len() == 1 { "1 channel" } else { "3 channels" };
+    format!("Compared: {} × {} pixels, {channels} of {what}; {range}", film.width(), film.height())
 }
 
 /// JSON: the metrics that have a value.

@@ -183,6 +183,14 @@ pub fn scores(test: &Film, reference: &Film) -> Vec<(&'static str, f64)> {
     channel_scores(std::slice::from_ref(test), std::slice::from_ref(reference))
 }
 
+/// A rendering's score by the metric of this name; `None` if there is no such metric, or it has no finite value.
+///
+/// # Panics
+/// If the films differ in size: a programming error.
+pub fn score(name: &str, test: &Film, reference: &Film) -> Option<f64> {
+    find(name)?.value(std::slice::from_ref(test), std::slice::from_ref(reference))
+}
+
 /// The scores of an image of several channels; see [`scores`].
 ///
 /// # Panics

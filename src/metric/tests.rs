@@ -9,11 +9,6 @@ fn film(width: usize, height: usize, f: impl Fn(usize, usize) -> f64) -> Film {
     Film::new(width, height, (0..width * height).map(pixel).collect())
 }
 
-/// The score of a name.
-fn score(name: &str, test: &Film, reference: &Film) -> Option<f64> {
-    find(name).unwrap().value(std::slice::from_ref(test), std::slice::from_ref(reference))
-}
-
 /// Two pairs of images (test, reference) of 37 × 29 pixels, exact in single precision.
 fn pairs() -> [(Film, Film); 2] {
     let make = |f: fn(usize, usize) -> f64| film(37, 29, f);

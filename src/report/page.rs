@@ -116,7 +116,8 @@ pub fn shadings(results: &Results) -> Vec<Definition<'_>> {
 /// The metrics that trials were scored by.
 pub fn metrics(results: &Results) -> Vec<Definition<'_>> {
     let scores = results.scenes.iter().flat_map(|s| &s.trials).flat_map(|t| &t.scores);
-    let probed = results.scenes.iter().any(|s| !s.probes.is_empty()).then_some("ndf_l1");
+    let probed = results.scenes.iter().any(|s| !s.probes.is_empty());
+    let probed = ["ndf_l1", "ndf_kl", "ndf_wasserstein"].into_iter().filter(|_| probed);
     let names = unique(scores.map(|s| s.metric.as_str()).chain(probed));
     let define = |word| Some(Definition { word, meaning: words::metric_formula(word)? });
     names.into_iter().filter_map(define).collect()

@@ -83,8 +83,7 @@ fn of_scene(
         scene.trials.iter().find(|trial| trial.method == of.label && trial.spp == spp)
     };
     let (own, exact) = (trial(method)?, trial(exact)?);
-    let between =
-        metric::scores(&own.film, &exact.film).into_iter().find(|(name, _)| *name == DECIDES)?.1;
+    let between = metric::score(DECIDES, &own.film, &exact.film)?;
     let mean = mean_radiance(scene);
     let split = Split { all: own.score(DECIDES)?, lobe: exact.score(DECIDES)?, lookup: between };
     let parts = [split.all, split.lobe, split.lookup].map(|part| part / mean);

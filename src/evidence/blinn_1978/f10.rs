@@ -119,10 +119,7 @@ fn smoothed(scene: &SceneResult, part: &FinishedPart) -> Option<Claim> {
     };
     let flat = part.results.scenes.iter().find(near)?;
     let averaged = scene.trials.iter().find(|t| t.method == "averaged" && t.spp == 1)?;
-    let away = |film: &Film| {
-        let scores = metric::scores(film, &flat.reference.film);
-        scores.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |(_, value)| *value)
-    };
+    let away = |film: &Film| metric::score("rmse", film, &flat.reference.film).unwrap_or(f64::NAN);
     let ratio = away(&averaged.film) / away(&scene.reference.film);
     Some(Claim::shown(
         format!(

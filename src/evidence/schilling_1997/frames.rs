@@ -285,10 +285,7 @@ fn by_covariance(exhibit: &mut Exhibit, scene: &Bumped, task: &Task) -> Result<(
     let truth = scene.supersampled(SAMPLES[0], task.seed + 1);
     task.go_on()?;
     let (one, filtered) = (scene.supersampled(1, task.seed), scene.by_covariance());
-    let rmse = |film: &Film| {
-        let scores = metric::scores(film, &truth);
-        scores.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |(_, value)| *value)
-    };
+    let rmse = |film: &Film| metric::score("rmse", film, &truth).unwrap_or(f64::NAN);
     let [noise, left] = [rmse(&one), rmse(&filtered)];
     exhibit.claims.push(Claim::shown(
         "RMSE of the natural frame with mean and covariance carried to the surface, of one sample a pixel",

@@ -190,10 +190,7 @@ fn mirrors(part: &FinishedPart, words: &str) -> Option<Claim> {
         Some(Arc::clone(&trial.film))
     };
     let mirror = averaged(flat)?;
-    let from_mirror = |film: &Film| {
-        let scores = metric::scores(film, &mirror);
-        scores.iter().find(|(name, _)| *name == "rmse").map_or(f64::NAN, |(_, value)| *value)
-    };
+    let from_mirror = |film: &Film| metric::score("rmse", film, &mirror).unwrap_or(f64::NAN);
     let filtered = averaged(scene)?;
     let ratio = from_mirror(&filtered) / from_mirror(&scene.reference.film);
     Some(Claim::shown(

@@ -10,7 +10,7 @@ pub struct Exposures {
     pub start: f64,
     /// The brightest, in stops.
     pub stop: f64,
-    /// How many, evenly spaced from one to the other: at least 2, and no more than a stop apart.
+    /// How many, evenly spaced from one to the other: the stops between, rounded up, and at least 2.
     pub count: usize,
 }
 

@@ -32,10 +32,10 @@ fn it_is_a_symmetric_difference_from_0_to_1() {
     assert_eq!(mean(&a, &r), mean(&r, &a));
     let found = difference(&a, &r, PPD).unwrap();
     assert!(found.values.iter().all(|value| (0.0..=1.0).contains(value)));
-    // Black against white: |ΔL*| = 100 everywhere, no features.
+    // Black against white: |ΔL*| = 100 everywhere, no features but the root of rounding, 1e-8.
     let (black, white) = (picture(1, |_, _, _| 0.0), picture(1, |_, _, _| 1.0));
     let expected = colour_difference([0.0; 3], [100.0, 0.0, 0.0], greatest_difference());
-    assert!((mean(&black, &white) - expected).abs() < 1e-12);
+    assert!((mean(&black, &white) - expected).abs() < 1e-7);
     // Green against blue is the greatest difference.
     let pure = |k: usize| picture(3, move |c, _, _| f64::from(u8::from(c == k)));
     assert!((mean(&pure(1), &pure(2)) - 1.0).abs() < 1e-6);

@@ -262,10 +262,7 @@ impl Bench {
     /// The errors of all images there are, once there is a reference.
     fn scores(&self) -> Vec<Option<Score>> {
         let Some(reference) = &self.reference else { return vec![None; self.films.len()] };
-        let rmse = |film: &Film| {
-            let scores = metric::scores(film, &reference.film);
-            scores.into_iter().find(|(name, _)| *name == "rmse").map(|(_, value)| value)
-        };
+        let rmse = |film: &Film| metric::score("rmse", film, &reference.film);
         let errors: Vec<Option<f64>> =
             self.films.iter().map(|film| film.as_ref().and_then(|film| rmse(film))).collect();
         let first = self.brute_force().and_then(|m| errors[m]).map(|e| (self.wanted.spp, e));
