@@ -13,27 +13,26 @@ use common::{assert_same, output, records, trials_kept, wrinkle, written};
 const EXPERIMENT: &str = r#"
 seed = 11
 [image]
-width = 16
-height = 12
+width = 8
+height = 6
 [reference]
 spp = 64
 replicates = 2
 [sweep]
 texture = ["weave", "hills"]
-method = ["unfiltered", "averaged", "fournier"]
-spp = [1, 2]
+method = ["unfiltered", "averaged"]
+spp = [1]
+unfiltered_spp = [1]
 texels_per_pixel = [2.0, 5.0]
 lobe = [{ lobe = "blinn-phong", exponent = 40.0 }, { lobe = "ggx", alpha = 0.3 }]
 [texture.weave]
 pattern = "twill"
-width = 16
-height = 16
+width = 8
+height = 8
 [texture.hills]
 pattern = "gaussian"
-width = 16
-height = 16
-[method.fournier]
-mode = "fast"
+width = 8
+height = 8
 "#;
 
 const SCENES: usize = 8;

@@ -100,7 +100,7 @@ fn every_kind_of_difference_is_told() {
         assert!(text.contains(from), "{file}");
         fs::write(bench.report(file), text.replacen(from, to, 1)).unwrap();
     };
-    edit("metrics.csv", "waves,plane", "waves,sphere");
+    edit("metrics.csv", "t,plane", "t,sphere");
     edit("report.md", "# ", "## ");
     edit("metrics.json", "\"seed\": 1", "\"seed\": 2");
     let images = files_under(&bench.report("images"));

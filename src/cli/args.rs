@@ -6,6 +6,7 @@ use clap::{Args as ArgGroup, Parser, Subcommand};
 
 use crate::experiment::share::Share;
 use crate::job;
+use crate::metric;
 use crate::tui::picture::{Colours, Pictures};
 
 /// wrinkle's arguments.
@@ -252,18 +253,41 @@ pub struct LobesArgs {
 #[derive(Debug, ArgGroup)]
 #[command(after_help = "Examples:
   wrinkle compare mine.exr reference.exr
-  wrinkle compare mine.png reference.png --fail-above rmse=0.01
-  wrinkle compare a.exr b.exr --json")]
+  wrinkle compare mine.png reference.png --fail-above flip=0.05 --fail-below ssim=0.98
+  wrinkle compare mine.exr reference.exr --metric relmse:pbrt,relmse:tev
+  wrinkle compare mine.exr reference.exr --map error.png --map-kind flip
+  wrinkle compare a.exr b.exr --json
+
+Exits with 0 if no limit is broken, with 1 if one is, and with 2 if the request is wrong. Every metric, its formula and
+where it is from: docs/metrics.md.")]
 pub struct CompareArgs {
-    /// The image to score.
+    /// The image to score: EXR, HDR, PNG, TIFF or WebP.
     #[arg(value_name = "A")]
     pub test: PathBuf,
     /// The image it is scored against.
     #[arg(value_name = "B")]
     pub reference: PathBuf,
-    /// Exit with 1 if this metric is above this value; may be given more than once.
+    /// Only these metrics; all if not given. A variant is asked for as relmse:pbrt.
+    #[arg(long, value_name = "METRIC", value_delimiter = ',')]
+    pub metric: Vec<String>,
+    /// Exit with 1 if this metric is above this value, or has none; may be given more than once.
     #[arg(long, value_name = "METRIC=VALUE", value_parser = parse_limit)]
     pub fail_above: Vec<(String, f64)>,
+    /// Exit with 1 if this metric is below this value, or has none; may be given more than once.
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = parse_limit)]
+    pub fail_below: Vec<(String, f64)>,
+    /// What codes for a display are scored as: as stored, from 0 to 1, or as the light they stand for.
+    #[arg(long, default_value = "stored", value_parser = ["stored", "linear"])]
+    pub encoding: String,
+    /// Pixels of the screen to a degree of the visual field, for FLIP.
+    #[arg(long, value_name = "N", default_value_t = metric::PPD, allow_negative_numbers = true, value_parser = parse_ppd)]
+    pub ppd: f64,
+    /// Write the error of each pixel: PNG (false colour) or EXR (numbers).
+    #[arg(long, value_name = "IMAGE")]
+    pub map: Option<PathBuf>,
+    /// What the map shows.
+    #[arg(long, default_value = "absolute", value_parser = ["absolute", "signed", "relative", "flip"])]
+    pub map_kind: String,
     /// Print as JSON.
     #[arg(long)]
     pub json: bool,
@@ -409,6 +433,13 @@ fn parse_stop(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(part) if (0.0..=1.0).contains(&part) => Ok(part),
         _ => Err("give a number from 0 to 1".into()),
+    }
+}
+
+fn parse_ppd(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(ppd) if (1.0..=1000.0).contains(&ppd) => Ok(ppd),
+        _ => Err("give a number from 1 to 1000".into()),
     }
 }
 

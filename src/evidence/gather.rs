@@ -93,6 +93,7 @@ fn gather_rows(
         exhibits.push(exhibit);
         row_secs.push((row.name.to_owned(), secs));
     }
+    store.clear_images();
     let evidence = Evidence {
         name: spec.name.clone(),
         title: spec.title.clone(),
@@ -285,15 +286,15 @@ mod tests {
         Ok(exhibit)
     }
 
-    pub(super) const ROW: Row =
+    const ROW: Row =
         Row { name: "bumps-f1", title: "Bumps", parts: &[], parameters: &[], secs: 0.0, make };
-    pub(super) const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
+    const PAPER: Paper = Paper { name: "bumps-1990", citation: "Bumps", rows: &[ROW] };
 
     fn quiet(_: &Task) -> Result<Exhibit, super::super::Halted> {
         Ok(ROW.exhibit())
     }
 
-    const QUIET: Paper =
+    pub(super) const QUIET: Paper =
         Paper { name: "bumps-1990", citation: "Bumps", rows: &[Row { make: quiet, ..ROW }] };
 
     pub(super) fn spec() -> PaperSpec {

@@ -165,6 +165,8 @@ pub(super) fn probe_records(
                     .map(|lobe| Peak { axis: lobe.axis(), density: lobe.density(lobe.axis()) })
                     .collect(),
                 l1: found.distance,
+                kl: found.kl,
+                wasserstein: found.wasserstein,
             })
             .collect(),
     };

@@ -137,7 +137,7 @@ pub(super) fn probes(spec: &Spec, of: &PlannedScene) -> String {
 
 /// What the budgets of a scene's errors depend on: what its probes do, and its reference.
 pub(super) fn budget(spec: &Spec, of: &PlannedScene, reference: &Film) -> String {
-    format!("{} {:?} {}", probes(spec, of), spec.budget, reference.digest())
+    format!("budgets {} {:?} {}", probes(spec, of), spec.budget, reference.digest())
 }
 
 /// What a prefilter depends on.

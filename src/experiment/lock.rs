@@ -4,6 +4,7 @@ use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
 use super::archive::STATE;
+use super::share::SHARDS;
 use super::store::StoreError;
 
 /// Holds a folder of results for one run, until it is dropped or the program ends in any way.
@@ -57,7 +58,9 @@ impl Lock {
 fn clear_leftovers(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        if is_folder {
+        if is_folder && entry.file_name() == SHARDS {
+            // They have locks of their own, and may be at work.
+        } else if is_folder {
             clear_leftovers(&entry.path());
         } else if entry.file_name().to_string_lossy().starts_with(crate::file::BESIDE) {
             let _ = std::fs::remove_file(entry.path());
@@ -86,10 +89,14 @@ mod tests {
         let images = folder.path().join("images");
         std::fs::create_dir(&images).unwrap();
         let (half, whole) = (images.join(".writing-Ab3"), images.join("whole.exr"));
+        let shards = folder.path().join(".shards/1-of-2");
+        std::fs::create_dir_all(&shards).unwrap();
+        let other = shards.join(".writing-Cd4");
+        std::fs::write(&other, b"of a shard at work").unwrap();
         std::fs::write(&half, b"ha").unwrap();
         std::fs::write(&whole, b"whole").unwrap();
         Lock::take(folder.path()).unwrap();
-        assert!(!half.exists() && whole.exists());
+        assert!(!half.exists() && whole.exists() && other.exists());
     }
 
     #[test]

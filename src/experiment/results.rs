@@ -226,15 +226,30 @@ pub struct ProbedMethod {
     /// ½ ∫ |D − D_true| cos θ dω over the hemisphere: 0 for equal, 1 for disjoint normalised
     /// distributions.
     pub l1: f64,
+    /// Its divergence from the truth, nats; see [`crate::metric::kl_divergence`].
+    #[serde(default)]
+    pub kl: Option<f64>,
+    /// How far its mass would have to be moved; see [`crate::metric::wasserstein`].
+    #[serde(default)]
+    pub wasserstein: Option<f64>,
 }
 
 /// By method, in the order they are first seen, the mean over probes of [`ProbedMethod::l1`].
 pub fn mean_distances<'a>(probes: impl Iterator<Item = &'a [ProbedMethod]>) -> Vec<(&'a str, f64)> {
+    mean_figures(probes, |probed| Some(probed.l1))
+}
+
+/// By method, in the order they are first seen, the mean of a figure over the probes that have it.
+pub fn mean_figures<'a>(
+    probes: impl Iterator<Item = &'a [ProbedMethod]>,
+    figure: impl Fn(&ProbedMethod) -> Option<f64>,
+) -> Vec<(&'a str, f64)> {
     let mut found: Vec<(&str, Vec<f64>)> = Vec::new();
     for probed in probes.flatten() {
+        let Some(value) = figure(probed) else { continue };
         match found.iter_mut().find(|(method, _)| *method == probed.method) {
-            Some((_, distances)) => distances.push(probed.l1),
-            None => found.push((&probed.method, vec![probed.l1])),
+            Some((_, values)) => values.push(value),
+            None => found.push((&probed.method, vec![value])),
         }
     }
     let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;

@@ -78,6 +78,7 @@ pub fn run(spec: &Spec, folder: &Path, halt: &Halt, watch: &Watcher) -> Result<O
         }
         run.tell_flicker(scene);
     }
+    store.clear_images();
     let costs = Costs {
         total_secs: start.elapsed().as_secs_f64(),
         threads: rayon::current_num_threads(),

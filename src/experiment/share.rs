@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 /// The most parts an experiment may be divided in.
 pub const MOST: u32 = 10_000;
 
+/// Where, in an experiment's folder of results, its shards are; each has a folder of results of its own there.
+pub const SHARDS: &str = ".shards";
+
 /// One of several parts of an experiment, all of about the same work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Share {

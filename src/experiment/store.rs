@@ -6,8 +6,9 @@
 //! taken in again are found. What users look at, `images/SCENE/NAME.exr`, is a second name of the film. A record or
 //! film whose bytes are not what they were is worth nothing and is made again. Files appear whole or not at all.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,8 @@ use crate::scene::Shelf;
 pub struct Store {
     folder: PathBuf,
     archive: Archive,
+    /// The images that users find, of those that were kept or looked for.
+    shown: Arc<Mutex<BTreeSet<PathBuf>>>,
     /// Digest of the running program.
     program: blake3::Hash,
     /// Digest of everything that all records depend on.
@@ -126,7 +129,8 @@ impl Store {
         hasher.update(program.as_bytes());
         hasher.update(depends.as_bytes());
         let archive = Archive::of(folder);
-        Ok(Self { folder: folder.to_owned(), archive, program, common: hasher.finalize() })
+        let (folder, shown) = (folder.to_owned(), Arc::default());
+        Ok(Self { folder, archive, shown, program, common: hasher.finalize() })
     }
 
     /// Where prefiltered maps are kept. They depend on the program and on what their own keys say, not on
@@ -177,9 +181,12 @@ impl Store {
     /// If it cannot be written.
     pub fn keep_film(&self, scene: &str, name: &str, film: &Film) -> Result<String, StoreError> {
         let image = film_name(film);
-        let path = self.archive.film_path(&image);
-        make_parent(&path)?;
-        film.write_exr(&path)?;
+        // Made again to the same bits, because its record was gone: the file stays.
+        if self.archive.film(&image).is_none() {
+            let path = self.archive.film_path(&image);
+            make_parent(&path)?;
+            film.write_exr(&path)?;
+        }
         self.show(scene, name, &image)?;
         Ok(image)
     }
@@ -225,8 +232,28 @@ impl Store {
     fn show(&self, scene: &str, name: &str, image: &str) -> Result<(), StoreError> {
         let path = self.image_path(scene, name);
         make_parent(&path)?;
+        self.shown.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
         link_whole(&self.archive.film_path(image), &path)
             .map_err(|source| StoreError::Write { path, source })
+    }
+
+    /// Takes away the images of earlier runs that were neither kept nor looked for since the store was opened: the
+    /// names only, under which users would take them for this run's. The films stay kept. Image files that are no
+    /// kept film's are not touched.
+    pub fn clear_images(&self) {
+        let shown = self.shown.lock().unwrap_or_else(PoisonError::into_inner);
+        for scene in entries(&self.folder.join("images")) {
+            for path in entries(&scene).into_iter().filter(|path| !shown.contains(path)) {
+                let kept = path.extension().is_some_and(|e| e == "exr")
+                    && Film::read_exr(&path)
+                        .is_ok_and(|film| self.archive.film_path(&film_name(&film)).exists());
+                if kept {
+                    let _ = std::fs::remove_file(path);
+                }
+            }
+            // Only if nothing is left in it.
+            let _ = std::fs::remove_dir(scene);
+        }
     }
 
     /// The address of what is of type `T` and depends on `depends`. Records of different kinds may depend on the
@@ -259,6 +286,11 @@ impl Store {
     fn read<T: DeserializeOwned>(&self, depends: &str) -> Option<Record<T>> {
         self.archive.read(&self.address::<T>(depends))
     }
+}
+
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).collect()
 }
 
 fn make_parent(path: &Path) -> Result<(), StoreError> {
@@ -328,5 +360,21 @@ mod tests {
         // Written in place: the film's own bytes.
         std::fs::write(&shown, b"scribble").unwrap();
         assert!(store.find_with_film::<f64>("s", "n", "a").is_none());
+    }
+
+    #[test]
+    fn images_of_earlier_runs_go_and_others_files_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = store(folder.path());
+        first.keep_with_film("old", "n", "a", &1.0, &film(1.0)).unwrap();
+        first.keep_with_film("s", "n", "b", &2.0, &film(2.0)).unwrap();
+        let mine = first.image_path("s", "mine");
+        film(3.0).write_exr(&mine).unwrap();
+        let second = store(folder.path());
+        assert!(second.find_with_film::<f64>("s", "n", "b").is_some());
+        second.clear_images();
+        assert!(second.image_path("s", "n").exists() && mine.exists());
+        assert!(!folder.path().join("images/old").exists());
+        assert!(second.find_with_film::<f64>("old", "n", "a").is_some(), "its film is still kept");
     }
 }

@@ -3,6 +3,7 @@
 
 mod control;
 mod find;
+mod leftovers;
 mod shards;
 mod verify;
 
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 pub use control::{Control, Gate};
 pub use find::{DEFAULT, FOLDER, FindError, is_image, load, load_sweep, locate, names, names_in};
-pub use shards::{MergeError, SHARDS, merge, run_shard, shard_folder};
+pub use shards::{MergeError, merge, run_shard, shard_folder};
 pub use verify::{Difference, FileNow, Verified, VerifyError, differences, reports_in, verify};
 
 use crate::evidence::{Evidence, Findings, Gathered, gather};
@@ -87,7 +88,8 @@ pub fn run(
         Experiment::Sweep(spec) => sweep(spec, folder, control, &watch)?,
         Experiment::Paper(spec) => paper(spec, folder, control, &watch)?,
     };
-    if done.is_some() {
+    if let Some(done) = &done {
+        leftovers::clear(folder, &done.files);
         manifest.finished = true;
         manifest.write(folder)?;
     }

@@ -8,12 +8,9 @@ use crate::evidence;
 use crate::experiment::lock::Lock;
 use crate::experiment::manifest::{Manifest, ManifestError};
 use crate::experiment::runner::{self, RunError, Watcher};
-use crate::experiment::share::Share;
+use crate::experiment::share::{SHARDS, Share};
 use crate::experiment::spec::Experiment;
 use crate::experiment::store::{Store, StoreError, program};
-
-/// Where, in an experiment's folder of results, its shards are.
-pub const SHARDS: &str = ".shards";
 
 /// The folder of a share of the experiment whose results go to `folder`.
 pub fn shard_folder(folder: &Path, share: Share) -> PathBuf {

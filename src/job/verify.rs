@@ -51,8 +51,8 @@ pub enum VerifyError {
         /// Why.
         why: String,
     },
-    /// This program does not understand its experiment.
-    #[error("{}: the experiment in it is none for this version of wrinkle:\n{errors}", path.display())]
+    /// This program does not understand its experiment, or does not find a file that it names.
+    #[error("{}: the experiment in it cannot be run here:\n{errors}", path.display())]
     Spec {
         /// The file.
         path: PathBuf,

@@ -7,20 +7,27 @@
 mod distribution;
 mod equivalent;
 mod flicker;
+mod flip;
 mod lead;
+mod luminance;
+mod ms_ssim;
 mod pixelwise;
 mod registry;
 mod ssim;
 mod uncertain;
+mod viewing;
 
-pub use distribution::total_variation;
+pub use distribution::{EVEN, SLICES, kl_divergence, total_variation, wasserstein};
 pub use equivalent::{Equivalent, SpeedUp, equivalent_samples};
 pub use flicker::{Flicker, Step, flicker_map};
+pub use flip::{Exposures, exposures};
 pub use lead::{Lead, Verdict, Z};
+pub use ms_ssim::SCALE_WEIGHTS;
 pub use pixelwise::{DARK, HIGHLIGHT};
 pub use registry::{entries, find};
 pub use ssim::{K1, K2, SIGMA, WINDOW, ssim};
 pub use uncertain::{Uncertain, mse_gap};
+pub use viewing::{PPD, Values, Viewing};
 
 use rayon::prelude::*;
 
@@ -50,8 +57,13 @@ enum Measure {
     /// Pixel by pixel.
     Pixelwise(Pixelwise),
     /// As the mean of values that neighbourhoods have.
-    Local(fn(&[Film], &[Film]) -> Option<Field>),
+    Local(LocalMeasure),
+    /// At once.
+    Whole(fn(&[Film], &[Film], &Viewing) -> Option<f64>),
 }
+
+/// The values that neighbourhoods have.
+type LocalMeasure = fn(&[Film], &[Film], &Viewing) -> Option<Field>;
 
 /// Values on a grid of pixels, row by row, in double precision.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,14 +127,35 @@ impl Metric {
     /// If the images differ in size or number of channels: a programming error; [`same_shape`] checks images of the
     /// user's.
     pub fn value(&self, test: &[Film], reference: &[Film]) -> Option<f64> {
+        self.value_seen(test, reference, &Viewing::default())
+    }
+
+    /// The same of images that hold something else than radiances, or are looked at by another viewer.
+    ///
+    /// # Panics
+    /// As [`Metric::value`].
+    pub fn value_seen(&self, test: &[Film], reference: &[Film], viewing: &Viewing) -> Option<f64> {
         if let Err(error) = same_shape(test, reference) {
             panic!("{error}");
         }
         let value = match self.measure {
-            Measure::Pixelwise(metric) => metric.value(test, reference),
-            Measure::Local(field) => field(test, reference).map(|field| field.mean()),
+            Measure::Pixelwise(metric) => metric.value(test, reference, viewing),
+            Measure::Local(field) => field(test, reference, viewing).map(|field| field.mean()),
+            Measure::Whole(value) => value(test, reference, viewing),
         };
         value.filter(|value| value.is_finite())
+    }
+
+    /// Its value in each pixel or window, of metrics that are means of such: an error map. `None` of the others, and as
+    /// of [`Metric::value`].
+    ///
+    /// # Panics
+    /// As [`Metric::value`].
+    pub fn field(&self, test: &[Film], reference: &[Film], viewing: &Viewing) -> Option<Field> {
+        match self.measure {
+            Measure::Local(field) => field(test, reference, viewing),
+            Measure::Pixelwise(_) | Measure::Whole(_) => None,
+        }
     }
 
     /// Its value for a rendering, and what the reference's noise makes of it; `variance` has the variance of each
@@ -135,6 +168,7 @@ impl Metric {
         let found = match self.measure {
             Measure::Pixelwise(metric) => uncertain::pixelwise(&metric, test, reference, variance),
             Measure::Local(field) => uncertain::local(field, test, reference, variance),
+            Measure::Whole(value) => uncertain::whole(value, test, reference, variance),
         };
         found.filter(|found| found.value.is_finite())
     }

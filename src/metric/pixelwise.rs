@@ -1,6 +1,7 @@
 //! Metrics that are means over pixels, as data: what a pixel adds, what that is divided by, and what is made of
 //! the mean. Sums are in double precision and in the order of the pixels.
 
+use super::Viewing;
 use crate::render::Film;
 
 /// ε of `relmse` as a part of the squared mean of the reference. It keeps dark pixels from deciding,
@@ -38,12 +39,12 @@ pub(super) enum Level {
     OfSquaredMean(f64),
     /// So many times the reference's greatest pixel.
     OfGreatest(f64),
-    /// The reference's greatest pixel, or 1 if it has no light.
+    /// The data range: of radiances the reference's greatest pixel, or 1 if it has no light; else 1.
     Range,
 }
 
 impl Level {
-    fn of(self, reference: &[Film]) -> f64 {
+    fn of(self, reference: &[Film], viewing: &Viewing) -> f64 {
         match self {
             Self::Fixed(number) => number,
             Self::OfMean(part) => part * mean(reference),
@@ -52,7 +53,7 @@ impl Level {
                 part * mean * mean
             }
             Self::OfGreatest(part) => part * greatest(reference),
-            Self::Range => data_range(reference),
+            Self::Range => viewing.range(reference),
         }
     }
 }
@@ -98,13 +99,18 @@ impl Pixelwise {
     }
 
     /// Its level for a reference.
-    pub(super) fn level_of(&self, reference: &[Film]) -> f64 {
-        self.level.of(reference)
+    pub(super) fn level_of(&self, reference: &[Film], viewing: &Viewing) -> f64 {
+        self.level.of(reference, viewing)
     }
 
     /// Its value; `None` if there is nothing to divide by.
-    pub(super) fn value(&self, test: &[Film], reference: &[Film]) -> Option<f64> {
-        let level = self.level_of(reference);
+    pub(super) fn value(
+        &self,
+        test: &[Film],
+        reference: &[Film],
+        viewing: &Viewing,
+    ) -> Option<f64> {
+        let level = self.level_of(reference, viewing);
         let sums = pairs(test, reference).fold((0.0, 0.0), |(term, over), (a, r)| {
             (term + (self.term)(a, r, level), over + (self.over)(a, r, level))
         });

@@ -12,7 +12,7 @@
 //! The metrics' own ε scale with the reference, so that they do not depend on exposure.
 
 use super::pixelwise::{self as of, DARK, HIGHLIGHT, Level, Outer, Pixelwise};
-use super::{Best, Measure, Metric, ssim};
+use super::{Best, Measure, Metric, flip, luminance, ms_ssim, ssim};
 
 /// Every metric, in the order tables show them.
 pub fn entries() -> &'static [Metric] {
@@ -157,6 +157,49 @@ static ENTRIES: &[Metric] = &[
         best: Best::Highest,
         swept: true,
         measure: Measure::Local(ssim::of_channels),
+    },
+    Metric {
+        name: "ssim:luminance",
+        meaning: "structural similarity of luminance",
+        formula: "as ssim, of Y = 0.2126 R + 0.7152 G + 0.0722 B of the values as they are",
+        best: Best::Highest,
+        swept: false,
+        measure: Measure::Local(luminance::structure),
+    },
+    Metric {
+        name: "ms_ssim",
+        meaning: "structural similarity at five scales (Wang et al. 2003); images of 176 pixels a side and more",
+        formula: "product over scales of mean contrast and structure to the weights 0.0448, 0.2856, 0.3001, 0.2363, 0.1333, \
+                  the last with luminance; scales by 2 × 2 means, windows as of ssim, means below 0 count as 0",
+        best: Best::Highest,
+        swept: true,
+        measure: Measure::Whole(ms_ssim::ms_ssim),
+    },
+    Metric {
+        name: "ms_ssim:luminance",
+        meaning: "structural similarity of luminance at five scales",
+        formula: "as ms_ssim, of Y = 0.2126 R + 0.7152 G + 0.0722 B of the values as they are",
+        best: Best::Highest,
+        swept: false,
+        measure: Measure::Whole(luminance::structure_at_scales),
+    },
+    Metric {
+        name: "flip",
+        meaning: "how different the pictures look, flipped between (FLIP, Andersson et al. 2020), from 0 to 1",
+        formula: "mean ΔE_c^(1 − ΔE_f), of pictures whose white is what 99.5 % of the reference do not exceed, at 67.02 pixels \
+                  to a degree",
+        best: Best::Lowest,
+        swept: true,
+        measure: Measure::Local(flip::flip),
+    },
+    Metric {
+        name: "flip:hdr",
+        meaning: "how different the pictures look at any exposure (HDR-FLIP, Andersson et al. 2021), from 0 to 1",
+        formula: "mean over pixels of the greatest FLIP over exposures that take the reference's greatest and median \
+                  luminance to 0.85 of the ACES tone curve, at 67.02 pixels to a degree",
+        best: Best::Lowest,
+        swept: false,
+        measure: Measure::Local(flip::flip_hdr),
     },
     Metric {
         name: "energy",

@@ -1,8 +1,7 @@
 //! Structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004, Image Quality Assessment: From Error
 //! Visibility to Structural Similarity, eq. 13).
 
-use super::pixelwise::data_range;
-use super::{Field, mean_field};
+use super::{Field, Viewing, mean_field};
 use crate::geometry::elementary::exp64;
 use crate::render::Film;
 
@@ -25,12 +24,9 @@ pub fn ssim(test: &Film, reference: &Film, range: f64) -> Option<f64> {
     Some(field(test, reference, range)?.mean())
 }
 
-/// The similarity in each window, the mean of the channels, with the reference's greatest pixel as data range.
-pub(super) fn of_channels(test: &[Film], reference: &[Film]) -> Option<Field> {
-    with_range(test, reference, data_range(reference))
-}
-
-fn with_range(test: &[Film], reference: &[Film], range: f64) -> Option<Field> {
+/// The similarity in each window, the mean of the channels.
+pub(super) fn of_channels(test: &[Film], reference: &[Film], viewing: &Viewing) -> Option<Field> {
+    let range = viewing.range(reference);
     let channels: Option<Vec<Field>> =
         test.iter().zip(reference).map(|(test, reference)| field(test, reference, range)).collect();
     mean_field(&channels?)
@@ -38,15 +34,57 @@ fn with_range(test: &[Film], reference: &[Film], range: f64) -> Option<Field> {
 
 /// The similarity in each window that lies inside; see [`ssim`].
 fn field(test: &Film, reference: &Film, range: f64) -> Option<Field> {
-    let (width, height) = (test.width(), test.height());
-    assert_eq!((width, height), (reference.width(), reference.height()), "shape of films");
+    of_plane(&Plane::of(test), &Plane::of(reference), range)
+}
+
+/// The same of one channel in double precision.
+pub(super) fn of_plane(test: &Plane, reference: &Plane, range: f64) -> Option<Field> {
+    let found = windows(test, reference, range)?;
+    Some(Field { width: found.width, values: found.whole })
+}
+
+/// One channel in double precision.
+pub(super) struct Plane {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// All values, row by row.
+    pub values: Vec<f64>,
+}
+
+impl Plane {
+    /// A film's.
+    pub fn of(film: &Film) -> Self {
+        let values = film.pixels().iter().map(|p| f64::from(*p)).collect();
+        Self { width: film.width(), height: film.height(), values }
+    }
+}
+
+/// What is alike in each window that lies inside an image.
+pub(super) struct Windows {
+    /// Windows across.
+    pub width: usize,
+    /// Luminance, contrast and structure.
+    pub whole: Vec<f64>,
+    /// Contrast and structure alone.
+    pub contrast: Vec<f64>,
+}
+
+/// The windows of two images; `None` if none fits.
+///
+/// # Panics
+/// If they differ in size: a programming error.
+pub(super) fn windows(test: &Plane, reference: &Plane, range: f64) -> Option<Windows> {
+    let Plane { width, height, .. } = *reference;
+    assert_eq!((test.width, test.height), (width, height), "shape of images");
     if width < WINDOW || height < WINDOW {
         return None;
     }
     let weights = window();
     let blurred = |f: fn(f64, f64) -> f64| {
-        let pairs = test.pixels().iter().zip(reference.pixels());
-        let product: Vec<f64> = pairs.map(|(a, r)| f(f64::from(*a), f64::from(*r))).collect();
+        let pairs = test.values.iter().zip(&reference.values);
+        let product: Vec<f64> = pairs.map(|(a, r)| f(*a, *r)).collect();
         blur(&blur(&product, width, &weights), height, &weights)
     };
     let mean_a = blurred(|a, _| a);
@@ -59,11 +97,12 @@ fn field(test: &Film, reference: &Film, range: f64) -> Option<Field> {
         let (a, r) = (mean_a[i], mean_r[i]);
         let (var_a, var_r) = (mean_aa[i] - a * a, mean_rr[i] - r * r);
         let covariance = mean_ar[i] - a * r;
-        let alike = (2.0 * a * r + c1) * (2.0 * covariance + c2);
-        alike / ((a * a + r * r + c1) * (var_a + var_r + c2))
+        let (alike, apart) = (2.0 * covariance + c2, var_a + var_r + c2);
+        let whole = (2.0 * a * r + c1) * alike / ((a * a + r * r + c1) * apart);
+        (whole, alike / apart)
     };
-    let values = (0..mean_a.len()).map(at).collect();
-    Some(Field { width: width - WINDOW + 1, values })
+    let (whole, contrast) = (0..mean_a.len()).map(at).unzip();
+    Some(Windows { width: width - WINDOW + 1, whole, contrast })
 }
 
 /// The window along one axis; it sums to 1.

@@ -19,10 +19,10 @@
 
 mod local;
 
-pub(super) use local::local;
+pub(super) use local::{local, whole};
 
-use super::Z;
 use super::pixelwise::{Pixelwise, pairs};
+use super::{Viewing, Z};
 use crate::render::Film;
 
 /// A score and what the reference's noise makes of it.
@@ -67,7 +67,7 @@ pub(super) fn pixelwise(
     variance: &[f64],
 ) -> Option<Uncertain> {
     let (tests, references) = (std::slice::from_ref(test), std::slice::from_ref(reference));
-    let level = metric.level_of(references);
+    let level = metric.level_of(references, &Viewing::default());
     let at = |a: f64, r: f64| [(metric.term)(a, r, level), (metric.over)(a, r, level)];
     let mut sums = Sums::default();
     for ((a, r), v) in pairs(tests, references).zip(variance) {

@@ -17,6 +17,11 @@ pub fn srgb(linear: f64) -> u8 {
     (255.0 * encoded + 0.5) as u8
 }
 
+/// The light of an sRGB code, both from 0 to 1 (IEC 61966-2-1); 0 for what is not above 0.
+pub fn srgb_light(code: f64) -> f64 {
+    if code <= 0.04045 { code.max(0.0) / 12.92 } else { pow64((code + 0.055) / 1.055, 2.4) }
+}
+
 /// The share of a picture's pixels that stay below white.
 const BELOW_WHITE: f64 = 0.995;
 
@@ -71,11 +76,28 @@ pub fn write_error_png(
     put(reference, &colours, ExtendedColorType::Rgb8, path)
 }
 
+/// Writes colours, rows of `width` of them from the top, as an 8-bit PNG.
+///
+/// # Errors
+/// [`FilmError::Write`].
+pub fn write_colours(width: usize, colours: &[[u8; 3]], path: &Path) -> Result<(), FilmError> {
+    let size = [width, colours.len() / width.max(1)];
+    put_bytes(size, colours.as_flattened(), ExtendedColorType::Rgb8, path)
+}
+
 fn put(film: &Film, bytes: &[u8], colour: ExtendedColorType, path: &Path) -> Result<(), FilmError> {
+    put_bytes([film.width(), film.height()], bytes, colour, path)
+}
+
+fn put_bytes(
+    [width, height]: [usize; 2],
+    bytes: &[u8],
+    colour: ExtendedColorType,
+    path: &Path,
+) -> Result<(), FilmError> {
     let mut png = Vec::new();
-    let (width, height) = (film.width() as u32, film.height() as u32);
     PngEncoder::new(&mut png)
-        .write_image(bytes, width, height, colour)
+        .write_image(bytes, width as u32, height as u32, colour)
         .map_err(|error| FilmError::write(path, error))?;
     write_whole(path, &png).map_err(|error| FilmError::write(path, error))
 }

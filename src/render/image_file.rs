@@ -13,6 +13,8 @@ use super::Film;
 pub struct StoredImage {
     /// One channel, or red, green and blue. Opacity is left out.
     pub channels: Vec<Film>,
+    /// Names of the channels that the file has beside these.
+    pub left_out: Vec<String>,
     /// What its numbers are.
     pub coding: Coding,
 }
@@ -99,7 +101,18 @@ fn read_exr(path: &Path, bytes: &[u8]) -> Result<StoredImage, FilmError> {
     let channels = exr_channels(&image).ok_or_else(|| {
         FilmError::read(path, "it has neither a channel Y nor channels R, G and B")
     })?;
-    Ok(StoredImage { channels, coding: Coding::Linear })
+    let left_out = left_out(&image, channels.len());
+    Ok(StoredImage { channels, left_out, coding: Coding::Linear })
+}
+
+/// The names of the channels beside the one or three that were taken.
+fn left_out(image: &Image<Layer<AnyChannels<FlatSamples>>>, taken: usize) -> Vec<String> {
+    let names: Vec<String> =
+        image.layer_data.channel_data.list.iter().map(|c| c.name.to_string()).collect();
+    let colours = ["R", "G", "B"];
+    let known =
+        |name: &String| if taken == 3 { colours.contains(&name.as_str()) } else { name == "Y" };
+    if names.len() == 1 { Vec::new() } else { names.into_iter().filter(|n| !known(n)).collect() }
 }
 
 fn exr_channels(image: &Image<Layer<AnyChannels<FlatSamples>>>) -> Option<Vec<Film>> {
@@ -153,6 +166,7 @@ fn from_dynamic(image: &DynamicImage) -> StoredImage {
     let films = channels.map(|pixels| Film::new(width, height, pixels));
     StoredImage {
         channels: films.into_iter().take(if grey { 1 } else { 3 }).collect(),
+        left_out: if image.color().has_alpha() { vec!["A".into()] } else { Vec::new() },
         coding: if floats { Coding::Linear } else { Coding::Display },
     }
 }

@@ -15,7 +15,7 @@ mod sampler;
 mod view;
 
 pub use camera::{Camera, direction};
-pub use display::{heat, percentile, srgb, write_error_png};
+pub use display::{heat, percentile, srgb, srgb_light, write_colours, write_error_png};
 pub use environment::{Filtered, reference_replicate, trial};
 pub use film::Film;
 pub use image_file::{Coding, FilmError, StoredImage, read_image};

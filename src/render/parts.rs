@@ -183,7 +183,7 @@ struct Ground {
     lobes: Vec<EllipticLobe>,
     /// How each of these is lit.
     lit: Vec<Lit>,
-    /// The moments of the lobes.
+    /// The moments of their mean.
     moments: Option<SlopeMoments>,
     /// The part of the points that is on the surface.
     covered: f32,
@@ -202,7 +202,9 @@ impl Ground {
             lobes.push(scene.base.about(at.bend.turn([x, y, z]), weight));
             lit.push(Lit::of(view, &sight));
         }
-        let moments = SlopeMoments::of(lobes.iter());
+        let count = lobes.len() as f64;
+        let moments = SlopeMoments::of(lobes.iter())
+            .map(|sum| SlopeMoments { mass: sum.mass / count, ..sum });
         let covered = lobes.len() as f32 / points.len() as f32;
         Self { centre, lobes, lit, moments, covered, shading: view.shading }
     }

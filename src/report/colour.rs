@@ -102,6 +102,20 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xfd, 0xe7, 0x25],
 ];
 
+/// The anchors of magma (van der Walt and Smith 2015), from 0 to 1: the colours that FLIP's maps are shown in.
+const MAGMA: [[u8; 3]; 10] = [
+    [0, 0, 4],
+    [24, 15, 61],
+    [69, 16, 119],
+    [114, 31, 129],
+    [158, 47, 127],
+    [205, 64, 113],
+    [241, 96, 93],
+    [253, 148, 103],
+    [254, 202, 141],
+    [252, 253, 191],
+];
+
 /// Blue for too dark, white for right, vermillion for too bright.
 const SIGNED: [[u8; 3]; 5] = [
     [0x0a, 0x3d, 0x6b],
@@ -126,6 +140,11 @@ pub fn scales() -> Scales {
 /// A magnitude from 0 to 1 as a colour.
 pub fn magnitude(value: f64) -> [u8; 3] {
     between(&VIRIDIS, step(value, 128.0))
+}
+
+/// A perceived difference from 0 to 1 as a colour.
+pub fn perceived(value: f64) -> [u8; 3] {
+    between(&MAGMA, value)
 }
 
 /// A signed value from −1 to 1 as a colour; 0 is white, what is not a number black.

@@ -225,6 +225,8 @@ fn probe() -> Probe {
             Peak { axis: [-0.3, 0.1, 0.9487], density: 4.0 },
         ],
         l1: 0.5 / (1.0 + i as f64),
+        kl: Some(0.8 / (1.0 + i as f64)),
+        wasserstein: Some(0.2 / (1.0 + i as f64)),
     });
     Probe { pixel: [30, 41], texels_across: 16.0, truth, methods: methods.collect() }
 }

@@ -63,7 +63,7 @@ mod fixture;
 
 use std::path::{Path, PathBuf};
 
-pub use colour::{magnitude, signed};
+pub use colour::{magnitude, perceived, signed};
 pub use disc::cell_of_normal;
 pub use evidence::write_evidence;
 pub use files::ReportError;

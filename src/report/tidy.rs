@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::experiment::results::{
-    MethodInfo, Peak, Probe, RefusalInfo, Results, SceneKey, SceneResult, TextureInfo,
-    mean_distances,
+    MethodInfo, Peak, Probe, ProbedMethod, RefusalInfo, Results, SceneKey, SceneResult,
+    TextureInfo, mean_figures,
 };
 use crate::experiment::sequence::Sequence;
 use crate::metric::{Step, Z};
@@ -137,18 +137,27 @@ fn trial_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
     })
 }
 
-/// One row a method: the mean over the scene's probes.
+/// A figure of a method's distribution of normals.
+type Figured = fn(&ProbedMethod) -> Option<f64>;
+
+/// The figures of distributions of normals.
+const DISTRIBUTIONS: [(&str, Figured); 3] =
+    [("ndf_l1", |m| Some(m.l1)), ("ndf_kl", |m| m.kl), ("ndf_wasserstein", |m| m.wasserstein)];
+
+/// One row a method and figure: the mean over the scene's probes.
 fn probe_rows(scene: &SceneResult) -> impl Iterator<Item = Row<'_>> {
-    let distances = mean_distances(scene.probes.iter().map(|probe| probe.methods.as_slice()));
-    let row = |(method, value)| Row {
-        key: &scene.key,
-        method,
-        spp: None,
-        metric: "ndf_l1",
-        value,
-        interval: None,
-    };
-    distances.into_iter().map(row)
+    let probes = || scene.probes.iter().map(|probe| probe.methods.as_slice());
+    DISTRIBUTIONS.into_iter().flat_map(move |(metric, figure)| {
+        let row = move |(method, value)| Row {
+            key: &scene.key,
+            method,
+            spp: None,
+            metric,
+            value,
+            interval: None,
+        };
+        mean_figures(probes(), figure).into_iter().map(row)
+    })
 }
 
 #[derive(Serialize)]
@@ -216,6 +225,8 @@ struct ProbeJson<'a> {
 struct ProbedJson<'a> {
     method: &'a str,
     ndf_l1: f64,
+    ndf_kl: Option<f64>,
+    ndf_wasserstein: Option<f64>,
     peaks: &'a [Peak],
 }
 
@@ -277,6 +288,8 @@ fn probe_json(probe: &Probe) -> ProbeJson<'_> {
     let methods = probe.methods.iter().map(|m| ProbedJson {
         method: &m.method,
         ndf_l1: m.l1,
+        ndf_kl: m.kl,
+        ndf_wasserstein: m.wasserstein,
         peaks: &m.peaks,
     });
     ProbeJson { pixel: probe.pixel, texels_across: probe.texels_across, methods: methods.collect() }

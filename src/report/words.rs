@@ -44,6 +44,20 @@ pub fn metric_formula(name: &str) -> Option<String> {
                 .into(),
         );
     }
+    if name == "ndf_kl" {
+        return Some(
+            "what is lost by a method's distribution of normals, nats, 0 for equal ones: ∫ p ln (p / q) of the normalised true \
+             distribution p and the method's q, a millionth of which is spread evenly"
+                .into(),
+        );
+    }
+    if name == "ndf_wasserstein" {
+        return Some(
+            "how far a method's distribution of normals would have to be moved, in the disc of their x and y: the sliced \
+             Wasserstein-1 distance times π/2, which is the shift of a shifted lobe"
+                .into(),
+        );
+    }
     metric::find(name).map(|metric| format!("{}: {}", metric.meaning, metric.formula))
 }
 

@@ -47,6 +47,10 @@ pub struct ProbedMethod {
     pub density: Vec<f32>,
     /// Total variation distance to the truth.
     pub distance: f64,
+    /// Its divergence from the truth, nats; see [`metric::kl_divergence`].
+    pub kl: Option<f64>,
+    /// Sliced Wasserstein distance to the truth; see [`metric::wasserstein`].
+    pub wasserstein: Option<f64>,
 }
 
 /// Points of a footprint that make its true distribution.
@@ -115,8 +119,8 @@ fn probed(
     let maps: Vec<_> = prefilters.iter().map(|&(_, lookup, map)| (lookup, map)).collect();
     let Under { texels_across, truth, methods } = look_under(staged, pixel, PROBE_POINTS, &maps)?;
     let of = |(found, &(prefilter, ..)): (Held, &(Entity, Lookup, &dyn Prefiltered))| {
-        let Held { surface, density, distance } = found;
-        ProbedMethod { prefilter, surface, density, distance }
+        let Held { surface, density, distance, kl, wasserstein } = found;
+        ProbedMethod { prefilter, surface, density, distance, kl, wasserstein }
     };
     let methods = methods.into_iter().zip(prefilters).map(of).collect();
     Some(Probe { pixel, texels_across, truth, methods })
@@ -142,6 +146,10 @@ pub struct Held {
     pub density: Vec<f32>,
     /// Total variation distance to the truth.
     pub distance: f64,
+    /// Its divergence from the truth, nats; see [`metric::kl_divergence`].
+    pub kl: Option<f64>,
+    /// Sliced Wasserstein distance to the truth; see [`metric::wasserstein`].
+    pub wasserstein: Option<f64>,
 }
 
 /// Looks under a pixel: the true distribution from `points` samples, and what each of the maps, by its lookup, holds
@@ -165,7 +173,9 @@ pub fn look_under(
             .map(|h| surface.lobes().iter().map(|lobe| lobe.density(h)).sum())
             .collect();
         let distance = metric::total_variation(&grid, &density, &truth);
-        Held { surface, density, distance }
+        let kl = metric::kl_divergence(&grid, &truth, &density);
+        let wasserstein = metric::wasserstein(&grid, &density, &truth);
+        Held { surface, density, distance, kl, wasserstein }
     };
     let texels_across = footprint.texels_across(map.width(), map.height());
     let methods = maps.iter().map(held).collect();

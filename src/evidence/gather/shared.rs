@@ -104,7 +104,7 @@ fn free<'a>(paper: &'a Paper, spec: &'a PaperSpec) -> Vec<(&'a Row, &'a RowSpec)
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{PAPER, part, spec};
+    use super::super::tests::{QUIET, part, spec};
     use super::super::{Gathered, gather_rows};
     use super::*;
     use crate::experiment::store::Store;
@@ -118,15 +118,15 @@ mod tests {
         for number in [3, 1, 2] {
             let shard = tempfile::tempdir().unwrap();
             let share = Share { of: 3, number };
-            done += share_of(&PAPER, &spec, share, shard.path(), &halt, &watch).unwrap().unwrap();
-            assert!(!missing_of(&PAPER, &spec, whole.path()).unwrap().is_empty());
+            done += share_of(&QUIET, &spec, share, shard.path(), &halt, &watch).unwrap().unwrap();
+            assert!(!missing_of(&QUIET, &spec, whole.path()).unwrap().is_empty());
             for within in ["", "one", "two"] {
                 Store::take_in(&whole.path().join(within), &shard.path().join(within)).unwrap();
             }
         }
         assert_eq!(done, 5, "two scenes of each part, and a row");
-        assert_eq!(missing_of(&PAPER, &spec, whole.path()).unwrap(), Vec::<String>::new());
-        let found = gather_rows(&PAPER, &spec, whole.path(), &halt, &watch).unwrap();
+        assert_eq!(missing_of(&QUIET, &spec, whole.path()).unwrap(), Vec::<String>::new());
+        let found = gather_rows(&QUIET, &spec, whole.path(), &halt, &watch).unwrap();
         let Gathered::Finished(found) = found else { panic!("nothing halts it") };
         assert_eq!(found.parts.iter().map(|part| part.results.scenes.len()).sum::<usize>(), 4);
     }

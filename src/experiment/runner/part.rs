@@ -66,6 +66,7 @@ pub fn missing(spec: &Spec, folder: &Path) -> Result<Vec<String>, RunError> {
     let mut missing = Vec::new();
     for scene in &plan.scenes {
         run.take_up(scene);
+        run.take_up_budgets(scene);
         if !run.complete(scene) {
             missing.push(scene.slug.clone());
         }

@@ -75,3 +75,42 @@ impl Surroundings<'_> {
         self.moves.then_some(("no budget can be drawn up of things that move", still))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::super::Spec;
+
+    fn read(rest: &str) -> Result<Spec, String> {
+        let sweep = "[sweep]\ntexture = [\"twill\"]\nmethod = [\"averaged\", \"lean\"]\n";
+        let path = Path::new("a.toml");
+        Spec::parse(&format!("{sweep}{rest}"), path).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn an_empty_table_asks_for_all_methods() {
+        assert_eq!(read("").unwrap().budget, None);
+        let budget = read("[budget]").unwrap().budget.unwrap();
+        assert_eq!((budget.methods, budget.points), (vec![0, 1], 1024));
+        let budget = read("[budget]\nmethods = [\"lean\"]\npoints = 64").unwrap().budget.unwrap();
+        assert_eq!((budget.methods, budget.points), (vec![1], 64));
+    }
+
+    #[test]
+    fn what_cannot_be_is_told() {
+        let cases = [
+            ("[budget]\nmethods = [\"leen\"]", "did you mean \"lean\"?"),
+            ("[budget]\nmethods = []", "a list of labels of methods of the sweep"),
+            ("[budget]\npoints = 100", "a power of two from 64 to 65536"),
+            ("[budget]\nwhat = 1", "unknown key `what`"),
+            ("[light]\nkind = \"environment\"\n[budget]", "under an environment"),
+            ("[material]\nshading = \"phong\"\n[budget]", "half vector"),
+            ("[motion]\n[budget]", "things that move"),
+        ];
+        for (text, want) in cases {
+            let error = read(text).unwrap_err();
+            assert!(error.contains(want), "{text}: {error}");
+        }
+    }
+}

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::super::SHARDS;
 use super::{image, text};
 use crate::experiment::STATE;
+use crate::experiment::share::SHARDS;
 use crate::file::BESIDE;
 
 /// A file that is not the same in two folders of results.

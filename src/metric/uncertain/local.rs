@@ -13,7 +13,7 @@
 //! little too small or large. The bias has a standard error of its own, which is of the second order.
 
 use super::Uncertain;
-use crate::metric::Field;
+use crate::metric::{Field, LocalMeasure, Viewing};
 use crate::render::{Film, stream};
 
 /// Pixels along a side of a block: more than a neighbourhood's.
@@ -24,19 +24,17 @@ const SEED: u64 = 0x6e6f_6973_65;
 
 /// Value, bias and standard error of the mean of a metric's local values.
 pub(in crate::metric) fn local(
-    field: fn(&[Film], &[Film]) -> Option<Field>,
+    field: LocalMeasure,
     test: &Film,
     reference: &Film,
     variance: &[f64],
 ) -> Option<Uncertain> {
-    let of = |sign: f64| {
-        let moved = moved(reference, variance, sign);
-        field(std::slice::from_ref(test), std::slice::from_ref(&moved))
+    let against = |reference: &Film| {
+        field(std::slice::from_ref(test), std::slice::from_ref(reference), &Viewing::default())
     };
-    let (measured, (up, down)) = rayon::join(
-        || field(std::slice::from_ref(test), std::slice::from_ref(reference)),
-        || rayon::join(|| of(1.0), || of(-1.0)),
-    );
+    let of = |sign: f64| against(&moved(reference, variance, SEED, sign));
+    let (measured, (up, down)) =
+        rayon::join(|| against(reference), || rayon::join(|| of(1.0), || of(-1.0)));
     let (measured, up, down) = (measured?, up?, down?);
     let value = measured.mean();
     let bias = 0.5 * (up.mean() + down.mean()) - value;
@@ -45,9 +43,36 @@ pub(in crate::metric) fn local(
     Some(Uncertain { value, bias, error: scatter.sqrt() / measured.values.len() as f64 })
 }
 
+/// Pairs of noisy references for a metric that has no local values.
+const PAIRS: u64 = 2;
+
+/// Value, bias and standard error of a metric that has no local values: from [`PAIRS`] pairs of noisy references, the
+/// root mean square of half their differences. Of two pairs that scatters by half of itself: an order of size.
+pub(in crate::metric) fn whole(
+    value: fn(&[Film], &[Film], &Viewing) -> Option<f64>,
+    test: &Film,
+    reference: &Film,
+    variance: &[f64],
+) -> Option<Uncertain> {
+    let against = |reference: &Film| {
+        value(std::slice::from_ref(test), std::slice::from_ref(reference), &Viewing::default())
+    };
+    let measured = against(reference)?;
+    let (mut bias, mut scatter) = (0.0, 0.0);
+    for pair in 0..PAIRS {
+        let of = |sign: f64| against(&moved(reference, variance, SEED + pair, sign));
+        let (up, down) = rayon::join(|| of(1.0), || of(-1.0));
+        let (up, down) = (up?, down?);
+        bias += (0.5 * (up + down) - measured) / PAIRS as f64;
+        scatter += 0.25 * (up - down) * (up - down) / PAIRS as f64;
+    }
+    Some(Uncertain { value: measured, bias, error: scatter.sqrt() })
+}
+
 /// The reference with every pixel moved by a standard error, up or down as its number's hash says, or the other way.
-fn moved(reference: &Film, variance: &[f64], sign: f64) -> Film {
-    let way = |pixel: usize| if stream(SEED ^ pixel as u64, 0, 0) & 1 == 0 { sign } else { -sign };
+fn moved(reference: &Film, variance: &[f64], seed: u64, sign: f64) -> Film {
+    let way =
+        |pixel: usize| if stream(seed, 0, pixel).count_ones() % 2 == 0 { sign } else { -sign };
     let pixels = reference.pixels().iter().zip(variance).enumerate();
     let pixels = pixels.map(|(i, (r, v))| (f64::from(*r) + way(i) * v.max(0.0).sqrt()) as f32);
     Film::new(reference.width(), reference.height(), pixels.collect())
