@@ -147,13 +147,11 @@ fn the_experiment_of_the_report_is_run_not_the_one_of_the_day() {
     let (code, said, _) = bench.say(&["verify"]);
     assert!(said.contains("the experiment's file is not here"), "{said}");
     assert_eq!(code, 0, "{said}");
-    // Its map is another: the report cannot be had again.
+    // Its map is gone: the report cannot be had again.
     fs::remove_file(bench.path().join("experiments/maps/bumps.png")).unwrap();
     let (code, said, _) = bench.say(&["verify"]);
-    assert!(
-        said.starts_with("failed   tiny: its experiment cannot be run again: texture `picture`"),
-        "{said}"
-    );
+    assert!(said.starts_with("failed   tiny: reports/tiny/metrics.json: "), "{said}");
+    assert!(said.contains("there is no file experiments/maps/bumps.png"), "{said}");
     assert_eq!(code, 1);
 }
 
