@@ -17,6 +17,7 @@ use crate::experiment::runner::{RunError, Watcher};
 use crate::experiment::share::Share;
 use crate::experiment::spec::Experiment;
 use crate::job::{self, Control, Ending, JobError};
+use crate::report;
 use crate::scene::Halt;
 
 /// Runs the experiments asked for, one after the other.
@@ -33,6 +34,7 @@ pub(super) fn run(args: &RunArgs, out: &mut dyn Write) -> Result<Exit, Failure> 
         let Some(summary) = run_one(experiment, &folder, &control)? else {
             return Ok(interrupted(&folder));
         };
+        report::write_index(&args.out).map_err(Failure::failed)?;
         if !args.json {
             summary.print(out)?;
         }

@@ -11,7 +11,8 @@
 //! | `animations/*.png`, `frames/*.png` | of things that move: animated PNG files, and one file a frame | yes |
 //! | `costs.csv`, `costs.md`, `costs.html`, `costs.png` | times and memory | no |
 //!
-//! [`write_evidence`] does the same for what was found about a paper.
+//! [`write_evidence`] does the same for what was found about a paper; [`write_index`] writes one page over all
+//! reports of a folder.
 
 mod answer;
 pub(crate) mod axis;
@@ -35,6 +36,7 @@ mod fit_plot;
 mod font;
 mod format;
 mod grid;
+mod index;
 mod lobe_sheet;
 mod mark;
 mod motion;
@@ -67,6 +69,7 @@ pub use evidence::write_evidence;
 pub use files::ReportError;
 pub use fit_plot::fit_plot;
 pub use format::{FORMAT, Newer, check_format};
+pub use index::write_index;
 pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};

@@ -4,7 +4,7 @@ use super::{colour, viewer};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 30] = [
+const TEMPLATES: [(&str, &str); 32] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
@@ -33,6 +33,8 @@ const TEMPLATES: [(&str, &str); 30] = [
     ("script/theme.js", include_str!("templates/script/theme.js")),
     ("script/flip.js", include_str!("templates/script/flip.js")),
     ("script/main.js", include_str!("templates/script/main.js")),
+    ("index.md", include_str!("templates/index.md")),
+    ("index.html", include_str!("templates/index.html")),
     ("costs.md", include_str!("templates/costs.md")),
     ("costs.html", include_str!("templates/costs.html")),
 ];

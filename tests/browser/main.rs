@@ -6,9 +6,9 @@
 
 mod chromium;
 
-use std::path::Path;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, OnceLock};
 
 use chromium::Browser;
 use serde_json::{Value, json};
@@ -61,30 +61,35 @@ fn films(scene: &SceneResult) -> Vec<(String, &[f32])> {
     std::iter::once(reference).chain(compared).chain(more).collect()
 }
 
-fn run(folder: &Path) -> Results {
-    let spec = Spec::parse(SPEC, Path::new("tiny.toml")).unwrap();
-    let halt = Halt(Arc::new(AtomicBool::new(false)));
-    let outcome = runner::run(&spec, folder, &halt, &runner::unwatched()).unwrap();
-    let Outcome::Finished(found) = outcome else { panic!("nobody halted the run") };
-    let (results, costs) = *found;
-    report::write(&results, &costs, folder).unwrap();
-    results
+/// A report that all tests look at, and where it stands.
+fn reported() -> (&'static Path, &'static Results) {
+    static REPORT: OnceLock<(PathBuf, Results)> = OnceLock::new();
+    let (folder, results) = REPORT.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser");
+        let spec = Spec::parse(SPEC, Path::new("tiny.toml")).unwrap();
+        let halt = Halt(Arc::new(AtomicBool::new(false)));
+        let outcome = runner::run(&spec, &folder, &halt, &runner::unwatched()).unwrap();
+        let Outcome::Finished(found) = outcome else { panic!("nobody halted the run") };
+        report::write(&found.0, &found.1, &folder).unwrap();
+        (folder, found.0)
+    });
+    (folder, results)
 }
 
 /// The page in a browser with what it shows; `None`, with a notice, where there is no browser.
-fn opened(folder: &Path) -> Option<(Browser, Results)> {
+fn opened() -> Option<(Browser, &'static Path, &'static Results)> {
     let Some(program) = chromium::find() else {
         let required = std::env::var("WRINKLE_BROWSER").is_ok_and(|value| value == "required");
         assert!(!required, "no Chromium on the path; CHROME may name one");
         eprintln!("NOTICE: skipped, for there is no Chromium on the path; CHROME may name one");
         return None;
     };
-    let results = run(folder);
+    let (folder, results) = reported();
     let mut browser = Browser::start(&program);
     browser.open(&folder.join("report.html"));
     browser.eval("document.querySelector('.scene .stage').scrollIntoView({ block: 'center', behavior: 'instant' })");
     browser.paint();
-    Some((browser, results))
+    Some((browser, folder, results))
 }
 
 const SCENE: &str = "document.querySelector('.scene')";
@@ -119,8 +124,7 @@ fn number(text: &str) -> f64 {
 
 #[test]
 fn keys_flip_hold_and_expose() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, results)) = opened(folder.path()) else { return };
+    let Some((mut browser, _, results)) = opened() else { return };
     let labels: Vec<String> = films(&results.scenes[0]).into_iter().map(|(l, _)| l).collect();
     for (i, label) in labels.iter().enumerate() {
         browser.press(&i.to_string());
@@ -150,8 +154,7 @@ fn keys_flip_hold_and_expose() {
 
 #[test]
 fn zoom_and_pan_move_all_images_of_a_scene_and_no_others() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, _)) = opened(folder.path()) else { return };
+    let Some((mut browser, _, _)) = opened() else { return };
     let other = |browser: &mut Browser| {
         browser.eval(
             "document.querySelectorAll('.scene')[1].querySelector('figure canvas').toDataURL()",
@@ -174,8 +177,9 @@ fn zoom_and_pan_move_all_images_of_a_scene_and_no_others() {
     let button = json!({ "button": "left", "buttons": 1, "clickCount": 1 });
     browser.mouse("mouseMoved", middle, json!({}));
     browser.mouse("mousePressed", middle, button.clone());
-    browser.mouse("mouseMoved", [middle[0] + 90.0, middle[1]], button.clone());
-    browser.mouse("mouseReleased", [middle[0] + 90.0, middle[1]], button);
+    browser.mouse("mouseMoved", [middle[0] + 90.0, middle[1]], button);
+    let let_go = json!({ "button": "left", "buttons": 0, "clickCount": 1 });
+    browser.mouse("mouseReleased", [middle[0] + 90.0, middle[1]], let_go);
     browser.mouse("mouseMoved", [2.0, 2.0], json!({}));
     browser.paint();
     assert!(same(&zoomed, &canvases(&mut browser)) <= 1);
@@ -188,8 +192,7 @@ fn zoom_and_pan_move_all_images_of_a_scene_and_no_others() {
 
 #[test]
 fn values_are_those_of_the_films_to_the_precision_of_half_floats() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, results)) = opened(folder.path()) else { return };
+    let Some((mut browser, _, results)) = opened() else { return };
     for (x, y) in [(3, 5), (12, 8), (23, 15)] {
         let at = on_stage(&mut browser, x, y);
         browser.mouse("mouseMoved", at, json!({}));
@@ -213,8 +216,7 @@ fn values_are_those_of_the_films_to_the_precision_of_half_floats() {
 
 #[test]
 fn improvement_is_blue_where_the_shown_image_is_nearer() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, results)) = opened(folder.path()) else { return };
+    let Some((mut browser, _, results)) = opened() else { return };
     let all = films(&results.scenes[0]);
     browser.press("3");
     (0..3).for_each(|_| browser.press("m"));
@@ -240,8 +242,7 @@ fn improvement_is_blue_where_the_shown_image_is_nearer() {
 
 #[test]
 fn the_wipe_shows_two_images_and_follows_keys() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, _)) = opened(folder.path()) else { return };
+    let Some((mut browser, _, _)) = opened() else { return };
     let stage = |browser: &mut Browser| {
         browser.paint();
         browser.eval(&format!("{SCENE}.querySelector('.stage canvas').toDataURL()"))
@@ -263,8 +264,7 @@ fn the_wipe_shows_two_images_and_follows_keys() {
 
 #[test]
 fn nothing_is_fetched_and_a_print_has_its_pictures_in_light_and_dark() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, _)) = opened(folder.path()) else { return };
+    let Some((mut browser, _, _)) = opened() else { return };
     let paper = "getComputedStyle(document.documentElement).backgroundColor";
     let dark = json!({ "features": [{ "name": "prefers-color-scheme", "value": "dark" }] });
     assert_eq!(browser.eval(paper), json!("rgb(255, 255, 255)"));
@@ -288,9 +288,8 @@ fn nothing_is_fetched_and_a_print_has_its_pictures_in_light_and_dark() {
 
 #[test]
 fn a_figure_leads_to_its_row() {
-    let folder = tempfile::tempdir().unwrap();
-    let Some((mut browser, results)) = opened(folder.path()) else { return };
-    let rows: Vec<String> = std::fs::read_to_string(folder.path().join("metrics.csv"))
+    let Some((mut browser, folder, results)) = opened() else { return };
+    let rows: Vec<String> = std::fs::read_to_string(folder.join("metrics.csv"))
         .unwrap()
         .lines()
         .map(str::to_owned)

@@ -113,7 +113,10 @@ fn run(number: u64, path: &Path, folder: &Path, control: &Control, tell: &Tell) 
     };
     let watch = throttled(number, tell);
     match job::run(&experiment, folder, control, &watch) {
-        Ok(Ending::Done(done)) => done_words(done),
+        Ok(Ending::Done(done)) => match folder.parent().map(report::write_index) {
+            Some(Err(error)) => End::Failed(error.to_string()),
+            _ => done_words(done),
+        },
         Ok(Ending::Halted) => End::Halted,
         Err(error) => End::Failed(error.to_string()),
     }

@@ -14,8 +14,11 @@ const watchFigures = () => {
   const box = make("dialog", { class: "sources", "aria-label": "rows of metrics.csv" });
   const show = async (text, lines) => {
     rows ??= await metricsRows();
+    // What was measured comes before where.
+    const from = cellsOf(rows[0]).indexOf("method");
+    const cellsAt = (line) => ((cells) => [...cells.slice(from), ...cells.slice(0, from)])(cellsOf(rows[line - 1]).slice(0, -1));
     const row = (tag, first, cells) => make("tr", {}, make("th", { scope: tag, text: first }), ...cells.map((cell) => make(tag === "col" ? "th" : "td", { text: cell })));
-    const table = make("table", {}, make("thead", {}, row("col", "line", cellsOf(rows[0]).slice(0, -1))), make("tbody", {}, ...lines.map((line) => row("row", line, cellsOf(rows[line - 1]).slice(0, -1)))));
+    const table = make("table", {}, make("thead", {}, row("col", "line", cellsAt(1))), make("tbody", {}, ...lines.map((line) => row("row", line, cellsAt(line)))));
     const count = lines.length === 1 ? "this row" : `these ${lines.length} rows`;
     box.replaceChildren(
       make("p", {}, make("strong", { text }), ` follows from ${count} of metrics.csv:`),
