@@ -135,10 +135,13 @@ mod tests {
             // 0.2 % of 16 slices, and the grid's own.
             assert!((found / shift - 1.0).abs() < 0.005, "{found} for {shift}");
         }
-        // Two halves of the mass, each moved by 0.2.
-        let two: Vec<f32> = at(0.2, 0.0).iter().zip(at(-0.2, 0.0)).map(|(a, b)| a + b).collect();
-        let found = wasserstein(&grid, &at(0.0, 0.0), &two).unwrap();
-        assert!((found / 0.2 - 1.0).abs() < 0.02, "{found}");
+        // Two lobes 0.4 apart; 0.4 of the mass changes from one to the other.
+        let mixed = |part: f32| -> Vec<f32> {
+            let (left, right) = (at(-0.2, 0.0), at(0.2, 0.0));
+            left.iter().zip(right).map(|(l, r)| part * l + (1.0 - part) * r).collect()
+        };
+        let found = wasserstein(&grid, &mixed(0.7), &mixed(0.3)).unwrap();
+        assert!((found / 0.16 - 1.0).abs() < 0.005, "{found}");
     }
 
     #[test]

@@ -1,14 +1,14 @@
 //! Metrics of neighbourhoods under a reference's noise.
 //!
 //! What such a metric is under noise has no short formula, so it is tried: each pixel of the reference is moved by one
-//! standard error up or down, as a hash of its number says, and the field of the metric's local values is taken of this
+//! standard error up or down, as a hash of its number and value says, and the field of the metric's local values is taken of this
 //! reference, and of the one moved the other way. Half the difference of the two fields is what noise does to first
 //! order; what their mean is above the field itself is its bias. Noise that is the same for two distant places is
 //! none, so the variance of the mean is the sum, over blocks of [`BLOCK`] pixels a side, of the squares of the sums of
 //! half the difference in each.
 //!
 //! # How rough that is
-//! One draw, whatever the seed. The standard error of n blocks scatters by about 1/√(2n) of itself: 13 % for 30
+//! The standard error of n blocks scatters by about 1/√(2n) of itself: 13 % for 30
 //! blocks, which an image of 160 × 120 has; and what crosses the border between blocks is not seen, which makes it a
 //! little too small or large. The bias has a standard error of its own, which is of the second order.
 
@@ -69,10 +69,13 @@ pub(in crate::metric) fn whole(
     Some(Uncertain { value: measured, bias, error: scatter.sqrt() })
 }
 
-/// The reference with every pixel moved by a standard error, up or down as its number's hash says, or the other way.
+/// The reference with every pixel moved by a standard error, up or down as the hash of its number and value says, or the
+/// other way.
 fn moved(reference: &Film, variance: &[f64], seed: u64, sign: f64) -> Film {
-    let way =
-        |pixel: usize| if stream(seed, 0, pixel).count_ones() % 2 == 0 { sign } else { -sign };
+    let way = |pixel: usize| {
+        let bits = u64::from(reference.pixels()[pixel].to_bits());
+        if stream(seed ^ bits, 0, pixel).count_ones() % 2 == 0 { sign } else { -sign }
+    };
     let pixels = reference.pixels().iter().zip(variance).enumerate();
     let pixels = pixels.map(|(i, (r, v))| (f64::from(*r) + way(i) * v.max(0.0).sqrt()) as f32);
     Film::new(reference.width(), reference.height(), pixels.collect())

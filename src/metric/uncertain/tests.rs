@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::geometry::elementary::{exp64, ln64};
-use crate::metric::{entries, find, scores_with_errors};
+use crate::metric::{entries, find};
 use crate::render::{PixelSampler, stream};
 
 const SIDE: usize = 48;
@@ -44,38 +44,56 @@ fn moments(values: &[f64]) -> (f64, f64) {
     (mean, scatter.sqrt())
 }
 
+/// What noisy references make of a score, and what is told of it.
+struct Found {
+    /// The mean score, less the mean bias and the exact score.
+    off: f64,
+    bias: f64,
+    scatter: f64,
+    /// The root mean square of the standard errors.
+    told: f64,
+}
+
+fn found(name: &str, draws: usize) -> Found {
+    let (truth, test, variance) = scene();
+    let metric = find(name).unwrap();
+    let exact = metric.value(std::slice::from_ref(&test), std::slice::from_ref(&truth)).unwrap();
+    let of = |draw| metric.uncertain(&test, &noisy(&truth, &variance, draw), &variance).unwrap();
+    let scores: Vec<Uncertain> = (0..draws).map(of).collect();
+    let all = |f: fn(&Uncertain) -> f64| -> Vec<f64> { scores.iter().map(f).collect() };
+    let (mean, scatter) = moments(&all(|u| u.value));
+    let (bias, _) = moments(&all(|u| u.bias));
+    let told = (all(|u| u.error * u.error).iter().sum::<f64>() / draws as f64).sqrt();
+    let off = (mean - bias - exact).abs();
+    println!("{name}: bias {bias:.2e} off {off:.1e} scatter {scatter:.3e} told {told:.3e}");
+    Found { off, bias, scatter, told }
+}
+
 /// 300 noisy references (seed 11). The mean score is off by the mean bias within 4 standard errors of the mean (a false
 /// alarm in 16 000) and a tenth of the bias, and scores scatter as their errors say within 16 %: 4 standard deviations of
-/// a standard deviation of 300 numbers.
+/// a standard deviation of 300 numbers. (The peak of PSNR and the threshold of highlights are drawn from the noisy
+/// reference, which is not told.)
 #[test]
 fn scores_scatter_and_are_off_as_told() {
-    let (truth, test, variance) = scene();
-    let draws: Vec<Vec<(&str, Uncertain)>> = (0..DRAWS)
-        .map(|draw| scores_with_errors(&test, &noisy(&truth, &variance, draw), &variance))
-        .collect();
-    for (k, (name, _)) in draws[0].iter().enumerate() {
-        let metric = find(name).unwrap();
-        let exact =
-            metric.value(std::slice::from_ref(&test), std::slice::from_ref(&truth)).unwrap();
-        let of = |f: fn(&Uncertain) -> f64| -> Vec<f64> {
-            draws.iter().map(|scores| f(&scores[k].1)).collect()
-        };
-        let (mean, scatter) = moments(&of(|u| u.value));
-        let (bias, _) = moments(&of(|u| u.bias));
-        let error = of(|u| u.error * u.error).iter().sum::<f64>() / DRAWS as f64;
-        let told = error.sqrt();
-        // The peak and the threshold of these two are drawn from the noisy reference, which is not told.
-        if matches!(*name, "psnr" | "highlight_energy") {
-            continue;
-        }
-        let off = (mean - bias - exact).abs();
+    for name in ["rmse", "mse", "mae", "relmse", "mape", "smape", "psnr:unit", "energy"] {
+        let Found { off, bias, scatter, told } = found(name, DRAWS);
         let allowed = 4.0 * scatter / (DRAWS as f64).sqrt() + 0.1 * bias.abs();
-        println!(
-            "{name}: exact {exact:.6} mean {mean:.6} bias {bias:.2e} off {off:.1e} ({allowed:.1e}) scatter {scatter:.3e} told {told:.3e}"
-        );
-        assert!(off < allowed, "{name}: {mean} − {bias} against {exact}");
+        assert!(off < allowed, "{name}: {off} of {bias}");
         assert!((told / scatter - 1.0).abs() < 0.16, "{name}: {told} against {scatter}");
     }
+}
+
+/// 100 noisy references (seed 11). SSIM scatters as told within a third: 28 % for 4 standard deviations of a standard
+/// deviation of 100 numbers, and 5 % for what crosses the borders of blocks. FLIP has roots with endless slopes
+/// and wide filters; what is told of it is an order of size.
+#[test]
+fn neighbourhoods_are_told_roughly() {
+    let draws = 100;
+    let Found { off, bias, scatter, told } = found("ssim", draws);
+    assert!(off < 4.0 * scatter / (draws as f64).sqrt() + 0.1 * bias.abs(), "{off} of {bias}");
+    assert!((0.67..1.33).contains(&(told / scatter)), "{told} against {scatter}");
+    let Found { scatter, told, .. } = found("flip", draws);
+    assert!((0.5..2.0).contains(&(told / scatter)), "{told} against {scatter}");
 }
 
 /// 300 noisy references (seed 11): the interval of ± 2 standard errors about the corrected mean square error holds the
@@ -122,8 +140,9 @@ fn without_noise_nothing_is_uncertain() {
         let Some(found) = metric.uncertain(&test, &truth, &none) else { continue };
         let value = metric.value(std::slice::from_ref(&test), std::slice::from_ref(&truth));
         assert_eq!(Some(found.value), value, "{}", metric.name);
-        assert!(found.bias.abs() <= 1e-15 * found.value.abs(), "{}: {found:?}", metric.name);
-        assert!(found.error <= 1e-15 * found.value.abs(), "{}: {found:?}", metric.name);
+        // The rounding of sums of 2304 pixels.
+        assert!(found.bias.abs() <= 1e-12 * found.value.abs(), "{}: {found:?}", metric.name);
+        assert!(found.error <= 1e-12 * found.value.abs(), "{}: {found:?}", metric.name);
     }
     assert_eq!(mse_gap(&test, &test, &truth, &variance), (0.0, 0.0));
 }
