@@ -20,6 +20,10 @@ use crate::scene::{
 impl Run<'_> {
     /// Puts into the world what an earlier run finished of this scene.
     pub(super) fn take_up(&mut self, scene: &PlannedScene) {
+        if self.kept_probes(scene).is_some() {
+            // They are read where results are collected.
+            self.stage.world.entity_mut(scene.entity).remove::<ProbePlan>();
+        }
         let settled: Option<SettledRecord> =
             self.store.find(&scene.slug, keys::SETTLED, &keys::settled(self.spec, scene));
         let planned = self.spec.reference.replicates;
@@ -87,6 +91,11 @@ impl Run<'_> {
                 self.tell_scores(scene, trial, scores, cpu_secs, true);
             }
         }
+    }
+
+    /// The scene's probes, if an earlier run or this one has kept them.
+    fn kept_probes(&self, scene: &PlannedScene) -> Option<Vec<ProbeRecord>> {
+        self.store.find(&scene.slug, keys::PROBES, &keys::probes(self.spec, scene))
     }
 
     /// Whether nothing of this scene is pending (its probes and refusals included); tells of the probes if so.
