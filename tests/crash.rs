@@ -83,12 +83,12 @@ fn is_kept(path: &Path) -> bool {
     !path.file_name().unwrap().to_string_lossy().starts_with(".writing-")
 }
 
-/// The records of trials and scores, what each is called, and when it was written. (Records of prefilters are
-/// written whenever one is built, those of probes whenever a scene is not complete, and those of a reference again if the kill came between its two films.)
+/// The records of trials, scores and probes, what each is called, and when it was written. (Records of prefilters are
+/// written whenever one is built, and those of a reference again if the kill came between its two films.)
 fn records_whole(results: &Path) -> Vec<(PathBuf, String, std::time::SystemTime)> {
     let time = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
     let all = records(results).into_iter().filter(|(path, of)| {
-        is_kept(path) && ["spp", "-scores"].iter().any(|end| of.ends_with(end))
+        is_kept(path) && ["spp", "-scores", "probes"].iter().any(|end| of.ends_with(end))
     });
     all.map(|(path, of)| (path.clone(), of, time(&path))).collect()
 }

@@ -21,7 +21,7 @@ seed = 3
 width = 24
 height = 16
 [reference]
-spp = 8
+spp = 4
 replicates = 2
 most = MOST
 gap = GAP
@@ -73,24 +73,24 @@ fn a_reference_is_sampled_until_it_tells_methods_apart() {
         results.scenes.iter().map(|scene| scene.reference.spp).collect()
     };
     // Not allowed to: it is left open.
-    let held = finish(&experiment(8, 0.01), folders[0].path(), &unwatched());
-    assert_eq!(counts(&held), [8, 8]);
+    let held = finish(&experiment(4, 0.01), folders[0].path(), &unwatched());
+    assert_eq!(counts(&held), [4, 4]);
     assert!(!is_settled(&held, 0) || !is_settled(&held, 1));
     // Allowed to: no more than it takes.
-    let free = finish(&experiment(1 << 16, 0.01), folders[1].path(), &unwatched());
+    let free = finish(&experiment(1024, 0.01), folders[1].path(), &unwatched());
     for (scene, spp) in counts(&free).into_iter().enumerate() {
-        assert!(is_settled(&free, scene) && spp < 1 << 16, "{spp}");
-        assert!(spp == 8 || !is_settled(&held, scene), "it was settled before");
+        assert!(is_settled(&free, scene) && spp < 1024, "{spp}");
+        assert!(spp == 4 || !is_settled(&held, scene), "it was settled before");
     }
-    assert!(counts(&free).iter().any(|&spp| spp > 8));
+    assert!(counts(&free).iter().any(|&spp| spp > 4));
     // A wide gap is soon told.
-    let wide = finish(&experiment(1 << 16, 1.0), folders[2].path(), &unwatched());
+    let wide = finish(&experiment(1024, 1.0), folders[2].path(), &unwatched());
     assert!(counts(&wide).iter().zip(counts(&free)).all(|(wide, free)| *wide <= free));
 }
 
 #[test]
-fn a_run_halted_at_any_piece_goes_on_to_the_same_bytes() {
-    let spec = experiment(4096, 0.01);
+fn a_run_halted_at_every_fourth_piece_goes_on_to_the_same_bytes() {
+    let spec = experiment(1024, 0.01);
     let whole = tempfile::tempdir().unwrap();
     let pieces = Arc::new(AtomicUsize::new(0));
     let counting = Arc::clone(&pieces);
@@ -100,9 +100,9 @@ fn a_run_halted_at_any_piece_goes_on_to_the_same_bytes() {
         }
     });
     let first = finish(&spec, whole.path(), &watch);
-    assert!(first.scenes.iter().any(|scene| scene.reference.spp > 8), "it went on");
+    assert!(first.scenes.iter().any(|scene| scene.reference.spp > 4), "it went on");
     let pieces = pieces.load(Ordering::Relaxed);
-    for halted_at in 1..pieces {
+    for halted_at in (1..pieces).step_by(4) {
         let folder = tempfile::tempdir().unwrap();
         let control = Control::default();
         let (halting, piece) = (control.clone(), AtomicUsize::new(0));
@@ -122,8 +122,8 @@ fn a_run_halted_at_any_piece_goes_on_to_the_same_bytes() {
 #[test]
 fn fewer_methods_take_up_no_more_samples_than_they_need() {
     let (folder, fresh) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    finish(&experiment(4096, 0.01), folder.path(), &unwatched());
-    let fewer = experiment(4096, 1.0);
+    finish(&experiment(1024, 0.01), folder.path(), &unwatched());
+    let fewer = experiment(1024, 1.0);
     finish(&fewer, folder.path(), &unwatched());
     finish(&fewer, fresh.path(), &unwatched());
     assert_same(folder.path(), fresh.path());

@@ -90,8 +90,8 @@ pub struct RunArgs {
   wrinkle merge highlight             the shards in reports/highlight/
   wrinkle merge highlight --from node1/reports --from node2/reports
 
-The report is the same, byte for byte, as that of a run that was not shared; only costs differ. A shard that died
-is simply run again.")]
+The report is the same, byte for byte, as that of a run that was not shared; only costs differ.
+A shard that died is simply run again.")]
 pub struct MergeArgs {
     /// The experiment: name of a file in experiments/ without `.toml`, or path of such a file.
     #[arg(value_name = "NAME|FILE", default_value = job::DEFAULT)]
@@ -114,8 +114,9 @@ pub struct MergeArgs {
   wrinkle verify quick                one of them
   wrinkle verify my/experiment.toml --out results
 
-The experiment that is run is the one that stands in the report, afresh, in a temporary folder (TMPDIR). All files
-are compared but those of costs. Exit code 0: all the same; 1: something differs.")]
+The experiment that is run is the one that stands in the report, afresh, in a temporary folder
+(TMPDIR). All files are compared but those of costs. Exit code 0: all the same; 1: something
+differs.")]
 pub struct VerifyArgs {
     /// Reports: names of folders in the folder of reports, or paths of experiment files, whose reports are there; all
     /// reports if none is named.

@@ -10,6 +10,7 @@ use super::exit::Failure;
 use super::run::{failed, halt_on_interrupt, interrupted, watched};
 use super::summary::Summary;
 use crate::job::{self, Control, Ending, MergeError};
+use crate::report;
 
 /// Puts the shards of an experiment together.
 pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Exit, Failure> {
@@ -28,6 +29,7 @@ pub(super) fn merge(args: &MergeArgs, out: &mut dyn Write) -> Result<Exit, Failu
         Err(error @ MergeError::None { .. }) => return Err(Failure::wrong(error)),
         Err(error) => return Err(Failure::failed(error)),
     };
+    report::write_index(&args.out).map_err(Failure::failed)?;
     let summary = Summary::of(done, &folder);
     if args.json {
         writeln!(out, "{:#}", json!({ "experiments": [summary.json()] }))?;

@@ -25,21 +25,25 @@ struct Entry {
 }
 
 /// Writes `index.html` and `index.md` over the reports that stand in the folders of `reports`, by name, and names the
-/// files. Two runs that end at once write the same files whole, one after the other.
+/// files. Of two runs that end at once, the one that writes last sees the reports of both.
 ///
 /// # Errors
 /// [`ReportError`] naming the file that could not be written.
 pub fn write_index(reports: &Path) -> Result<Vec<PathBuf>, ReportError> {
-    let entries = entries(reports);
-    let page = context! {
-        title => "Reports",
-        question => "What was asked of the filters, and what was found.",
-        entries => Serde(&entries),
-    };
-    let mut folder = Folder::create(reports)?;
-    folder.put("index.md", render("index.md", context! { page => page.clone() }).as_bytes())?;
-    folder.put("index.html", render("index.html", context! { page }).as_bytes())?;
-    Ok(folder.written())
+    loop {
+        let found = entries(reports);
+        let page = context! {
+            title => "Reports",
+            question => "What was asked of the filters, and what was found.",
+            entries => Serde(&found),
+        };
+        let mut folder = Folder::create(reports)?;
+        folder.put("index.md", render("index.md", context! { page => page.clone() }).as_bytes())?;
+        folder.put("index.html", render("index.html", context! { page }).as_bytes())?;
+        if entries(reports) == found {
+            return Ok(folder.written());
+        }
+    }
 }
 
 /// The reports of a folder, sorted by name; what cannot be read is left out.

@@ -25,16 +25,16 @@ pub fn choice(comparison: &Comparison, setting: &Setting) -> Option<Table> {
         vec![
             c.scale.as_str().into(),
             Cell { best: pays, ..label(best.method).into() },
-            Cell::from(phrase::percent(best.left)).from_rows(source::ratio(
+            Cell::from(phrase::percent(best.left)).of_rows(source::ratio(
                 at_scale(setting, &c.scale),
                 &best.method.label,
                 brute,
             )),
-            Cell::from(best.relative.map_or_else(String::new, phrase::percent)).from_rows(
+            Cell::from(best.relative.map_or_else(String::new, phrase::percent)).of_rows(
                 at_scale(setting, &c.scale)
                     .flat_map(|s| source::relative(s.scene, &best.method.label)),
             ),
-            Cell::from(best.worth.map_or_else(String::new, phrase::samples_short)).from_rows(
+            Cell::from(best.worth.map_or_else(String::new, phrase::samples_short)).of_rows(
                 at_scale(setting, &c.scale)
                     .flat_map(|s| source::worth(comparison.results, s.scene, &best.method.label)),
             ),
@@ -125,9 +125,9 @@ fn against(comparison: &Comparison, label: &str, brute: &str) -> [Cell; 3] {
     let curves = comparison.contests();
     let curves = curves.flat_map(|c| source::worth(comparison.results, c.scene, label));
     [
-        left.from_rows(rows.clone()),
-        Cell::from(format!("{farther} of {}", ratios.len())).from_rows(rows),
-        worth.unwrap_or_default().from_rows(curves),
+        left.of_rows(rows.clone()),
+        Cell::from(format!("{farther} of {}", ratios.len())).of_rows(rows),
+        worth.unwrap_or_default().of_rows(curves),
     ]
 }
 
@@ -136,7 +136,7 @@ fn relative(comparison: &Comparison, label: &str) -> Cell {
     let found: Vec<f64> = comparison.contests().filter_map(of).collect();
     let took_part = comparison.contests().filter(|c| c.standing(label).is_some());
     let middle = median(found, |v| v).map_or_else(Cell::default, |v| phrase::percent(v).into());
-    middle.from_rows(took_part.flat_map(|c| source::relative(c.scene, label)))
+    middle.of_rows(took_part.flat_map(|c| source::relative(c.scene, label)))
 }
 
 /// Memory is part of the report, times are not: it is the same in every run.
@@ -159,7 +159,7 @@ pub fn normalising(comparison: &Comparison) -> Option<Table> {
         Some(vec![
             normalised.label.as_str().into(),
             printed.label.as_str().into(),
-            Cell::from(phrase::times(ratio)).from_rows(source::ratio(
+            Cell::from(phrase::times(ratio)).of_rows(source::ratio(
                 comparison.contests(),
                 &printed.label,
                 &normalised.label,
@@ -202,7 +202,7 @@ fn energy(comparison: &Comparison, label: &str, other: &str) -> Cell {
     let (found, rows): (Vec<f64>, Vec<Source>) =
         comparison.contests().filter(both).filter_map(value).unzip();
     let middle = median(found, |v| v).map_or_else(Cell::default, |v| phrase::number(v).into());
-    middle.from_rows(rows)
+    middle.of_rows(rows)
 }
 
 #[cfg(test)]

@@ -41,7 +41,7 @@ pub struct Cell {
 
 impl Cell {
     /// The same cell, which follows from these rows of `metrics.csv`.
-    pub fn from_rows(self, rows: impl IntoIterator<Item = Source>) -> Self {
+    pub fn of_rows(self, rows: impl IntoIterator<Item = Source>) -> Self {
         Self { sources: rows.into_iter().collect(), ..self }
     }
 }
@@ -103,7 +103,7 @@ fn closest(contest: &Contest) -> Cell {
     let worth = worths.max_by(|a, b| rank(*a).total_cmp(&rank(*b))).map(phrase::samples_short);
     let aside: Vec<_> = relative.into_iter().chain(worth).collect();
     Cell { text: names.join(" = "), aside: aside.join("; "), ..Cell::default() }
-        .from_rows(contest.winners().flat_map(|s| source::relative(contest.scene, &s.method.label)))
+        .of_rows(contest.winners().flat_map(|s| source::relative(contest.scene, &s.method.label)))
 }
 
 /// Method by texture at one scale of a setting.
@@ -123,7 +123,7 @@ pub fn at_scale(comparison: &Comparison, setting: &Setting, scale: &Scale) -> Ta
         let text = |c: &Option<&Contest>| {
             c.map_or_else(Cell::default, |c| {
                 let row = Source::reference(c.scene, metric);
-                Cell::from(phrase::number(figure(c))).from_rows([row])
+                Cell::from(phrase::number(figure(c))).of_rows([row])
             })
         };
         std::iter::once(name.into()).chain(contests.iter().map(text)).collect()
@@ -150,7 +150,7 @@ fn error(comparison: &Comparison, contest: &Contest, method: &MethodInfo) -> Cel
             best: standing.best(),
             ..Cell::default()
         }
-        .from_rows(source::worth(comparison.results, contest.scene, &method.label)),
+        .of_rows(source::worth(comparison.results, contest.scene, &method.label)),
         None if not_finite(comparison, contest, &method.label) => "not finite".into(),
         None => Cell::default(),
     }
@@ -192,7 +192,7 @@ fn median_score(comparison: &Comparison, label: &str, metric: &str) -> Cell {
     };
     let (values, rows): (Vec<f64>, Vec<Source>) = comparison.contests().filter_map(value).unzip();
     let middle = median(values, |v| v).map(|v| Cell::from(phrase::number(v)));
-    middle.unwrap_or_default().from_rows(rows)
+    middle.unwrap_or_default().of_rows(rows)
 }
 
 #[cfg(test)]

@@ -184,6 +184,12 @@ fn zoom_and_pan_move_all_images_of_a_scene_and_no_others() {
     browser.paint();
     assert!(same(&zoomed, &canvases(&mut browser)) <= 1);
     assert_eq!(other(&mut browser), untouched);
+
+    browser.press("f");
+    browser.paint();
+    let back = canvases(&mut browser);
+    let differ: Vec<usize> = (0..all.len()).filter(|&i| all[i] != back[i]).collect();
+    assert!(differ.is_empty(), "images {differ:?} of {} are not as before", all.len());
 }
 
 #[test]

@@ -13,8 +13,8 @@ use super::super::store::{
 use super::{Run, RunError, RunEvent};
 use crate::render::Film;
 use crate::scene::{
-    BuildCost, Exposure, Prefilter, Probes, Progress, ReferenceImage, ReferencePlan, Replicates,
-    Scores, Settled,
+    BuildCost, Exposure, Prefilter, ProbePlan, Probes, Progress, ReferenceImage, ReferencePlan,
+    Replicates, Scores, Settled,
 };
 
 impl Run<'_> {
@@ -101,7 +101,6 @@ impl Run<'_> {
     /// Whether nothing of this scene is pending (its probes and refusals included); tells of the probes if so.
     pub(super) fn complete(&self, scene: &PlannedScene) -> bool {
         let world = &self.stage.world;
-        let depends = keys::probes(self.spec, scene);
         let refused = |trial: &PlannedTrial| {
             let (folder, name) = keys::prefilter_name(self.spec, scene, trial.method);
             let depends = keys::prefilter(self.spec, scene, trial.method);
@@ -113,7 +112,7 @@ impl Run<'_> {
         if world.get::<Settled>(scene.entity).is_none() || !scene.trials.iter().all(done) {
             return false;
         }
-        let probes: Option<Vec<ProbeRecord>> = self.store.find(&scene.slug, keys::PROBES, &depends);
+        let probes = self.kept_probes(scene);
         if let Some(probes) = &probes {
             self.tell_probes(scene, probes);
         }

@@ -28,13 +28,13 @@ pub(super) fn opponent(channels: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let [r, g, b] = channels else {
         return vec![channels[0].iter().map(|light| 116.0 * light - 16.0).collect()];
     };
-    let mut planes = vec![Vec::with_capacity(r.len()); 3];
+    let mut planes = [(); 3].map(|()| Vec::with_capacity(r.len()));
     for ((r, g), b) in r.iter().zip(g).zip(b) {
         let [x, y, z] = relative(times(&XYZ, [*r, *g, *b]));
         let colour = [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)];
         planes.iter_mut().zip(colour).for_each(|(plane, c)| plane.push(c));
     }
-    planes
+    planes.into()
 }
 
 /// XYZ over that of white.

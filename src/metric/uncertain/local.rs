@@ -20,7 +20,7 @@ use crate::render::{Film, stream};
 const BLOCK: usize = 24;
 
 /// What the hash of a pixel's number begins with.
-const SEED: u64 = 0x6e6f_6973_65;
+const SEED: u64 = 0x006e_6f69_7365;
 
 /// Value, bias and standard error of the mean of a metric's local values.
 pub(in crate::metric) fn local(
@@ -74,7 +74,7 @@ pub(in crate::metric) fn whole(
 fn moved(reference: &Film, variance: &[f64], seed: u64, sign: f64) -> Film {
     let way = |pixel: usize| {
         let bits = u64::from(reference.pixels()[pixel].to_bits());
-        if stream(seed ^ bits, 0, pixel).count_ones() % 2 == 0 { sign } else { -sign }
+        if stream(seed ^ bits, 0, pixel).count_ones().is_multiple_of(2) { sign } else { -sign }
     };
     let pixels = reference.pixels().iter().zip(variance).enumerate();
     let pixels = pixels.map(|(i, (r, v))| (f64::from(*r) + way(i) * v.max(0.0).sqrt()) as f32);
