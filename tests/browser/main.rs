@@ -153,14 +153,12 @@ fn keys_flip_hold_and_expose() {
 }
 
 #[test]
-fn zoom_and_pan_move_all_images_of_a_scene_and_no_others() {
+fn zoom_and_pan_move_all_images_of_a_scene_and_there_is_a_way_back() {
     let Some((mut browser, _, _)) = opened() else { return };
-    let other = |browser: &mut Browser| {
-        browser.eval(
-            "document.querySelectorAll('.scene')[1].querySelector('figure canvas').toDataURL()",
-        )
-    };
-    let (all, untouched) = (canvases(&mut browser), other(&mut browser));
+    // Once the page has settled.
+    browser.press("f");
+    browser.paint();
+    let all = canvases(&mut browser);
     let middle = on_stage(&mut browser, 12, 8);
     // Who has not clicked scrolls past.
     browser
@@ -183,7 +181,6 @@ fn zoom_and_pan_move_all_images_of_a_scene_and_no_others() {
     browser.mouse("mouseMoved", [2.0, 2.0], json!({}));
     browser.paint();
     assert!(same(&zoomed, &canvases(&mut browser)) <= 1);
-    assert_eq!(other(&mut browser), untouched);
 
     browser.press("f");
     browser.paint();

@@ -64,6 +64,7 @@ const drawGrid = (context, seen, fullWidth, width, height, valueAt) => {
   }
   context.stroke();
   if (size < VALUES) return;
+  context.save();
   context.font = "11px ui-monospace, monospace";
   context.textAlign = "center";
   context.textBaseline = "middle";
@@ -79,4 +80,5 @@ const drawGrid = (context, seen, fullWidth, width, height, valueAt) => {
       context.fillText(text, ...at);
     }
   }
+  context.restore();
 };
