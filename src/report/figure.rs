@@ -16,7 +16,7 @@ pub struct Figure {
     pub caption: String,
     /// How wide it is shown, CSS pixels.
     width: u32,
-    /// The picture as a data URI, if the page holds it.
+    /// The picture as a data URI, if the page holds it; else where its file is, if the page shows it.
     uri: Option<String>,
     /// The bytes of its file.
     #[serde(skip)]
@@ -28,6 +28,16 @@ impl Figure {
     pub fn drawing(file: String, caption: String, drawing: &Canvas) -> Self {
         let png = png::drawing(&drawing.dots());
         Self { file, caption, width: drawing.width(), uri: Some(data_uri(&png)), png }
+    }
+
+    /// What it takes up in a page, bytes.
+    pub fn size(&self) -> usize {
+        self.uri.as_ref().map_or(0, String::len)
+    }
+
+    /// Has the page show its file instead of holding it.
+    pub fn stand_beside(&mut self) {
+        self.uri = Some(self.file.clone());
     }
 
     /// A contact sheet. The HTML report shows its images one by one, so it needs no URI.

@@ -95,6 +95,23 @@ impl Figures {
 
 /// Bytes of films that a page holds, as text.
 const ROOM: usize = 14 << 20;
+/// Bytes of figures of distributions that it holds. With [`ROOM`] a page stays under 20 MiB.
+const PROBE_ROOM: usize = 5 << 20;
+
+/// The page holds figures of distributions while there is room: the first of every scene before the second of any. The
+/// others are shown from the files that stand beside it.
+fn make_room(scenes: &mut [SceneFigures]) {
+    let mut room = PROBE_ROOM;
+    let most = scenes.iter().map(|scene| scene.probes.len()).max().unwrap_or(0);
+    for number in 0..most {
+        for probe in scenes.iter_mut().filter_map(|scene| scene.probes.get_mut(number)) {
+            match room.checked_sub(probe.size()) {
+                Some(left) => room = left,
+                None => probe.stand_beside(),
+            }
+        }
+    }
+}
 
 /// The figures of all scenes. Films find room in the page scene by scene: those that methods are compared by, then,
 /// if all of them fit, those of brute force at more samples.
@@ -118,6 +135,7 @@ fn scenes(results: &Results, spp: u32) -> Vec<SceneFigures> {
             }
         }
     }
+    make_room(&mut made);
     made
 }
 
