@@ -1,7 +1,7 @@
 //! Results on disk: what a run keeps as it goes, so that a later one can go on.
 //!
 //! Every finished piece of work (a reference, a trial, a scene's probes, a prefilter's cost) is a record in the
-//! [`Archive`], under an address that is the digest of all it depends on; so is every film, under the digest of
+//! archive, under an address that is the digest of all it depends on; so is every film, under the digest of
 //! itself. A record depends on what its piece *is*, never on what it is called: pieces that are renamed, dropped and
 //! taken in again are found. What users look at, `images/SCENE/NAME.exr`, is a second name of the film. A record or
 //! film whose bytes are not what they were is worth nothing and is made again. Files appear whole or not at all.
