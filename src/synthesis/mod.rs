@@ -12,6 +12,7 @@ mod bake;
 mod detail;
 mod indices;
 mod inverse;
+mod missed;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ pub use agreement::{Agreement, LEAST};
 pub use bake::octaves_for;
 pub use indices::{Bits, IndexTexture};
 pub use inverse::Cumulative;
+pub use missed::Missed;
 pub use table::{ENTRIES, LookupTable, MicroFrame, frame_about};
 pub use values::{NoiseValues, index};
 
