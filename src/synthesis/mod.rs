@@ -18,7 +18,7 @@ mod table;
 mod tests;
 mod values;
 
-pub use agreement::{Agreement, LEAST};
+pub use agreement::{Agreement, LEAST, by_chance, total_variation};
 pub use bake::octaves_for;
 pub use indices::{Bits, IndexTexture};
 pub use inverse::Cumulative;
