@@ -356,15 +356,16 @@ fn detail_is_laid_onto_a_map_and_a_distribution_is_written_to_be_read_back() {
         assert_eq!(said.status.code(), Some(0), "{}", err(&said));
         out(&said)
     };
-    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
     bake("ggx:0.3 --size 31x20 --cells 4 --green down --out map.png");
     let said = bake("--onto map.png --map-green down --green down --amount 0 --out same.png");
     assert!(
-        said.starts_with("same.png: 31x20, 2 octaves of amount 0 onto map.png (31x20)"),
+        said.starts_with("same.png: 31x20, 1 octave of amount 0 onto map.png (31x20)"),
         "{said}"
     );
-    // 16-bit codes are far coarser than what is lost.
-    assert_eq!(bytes("map.png"), bytes("same.png"));
+    // What is lost is far less than a code of 16 bits, but may cross the middle between two.
+    let codes = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb16().into_raw();
+    let (map, same) = (codes("map.png"), codes("same.png"));
+    assert!(map.iter().zip(&same).all(|(a, b)| a.abs_diff(*b) <= 1));
     let said = bake("ggx:0.1 --onto map.png --size 93x60 --out finer.exr --ndf-out ndf.exr --json");
     let said: Value = serde_json::from_str(&said).unwrap();
     assert_eq!((&said["width"], &said["onto"]["width"]), (&93.into(), &31.into()));

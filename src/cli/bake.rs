@@ -154,7 +154,8 @@ fn tell_of(
         writeln!(out, "{told:#}")?;
         return Ok(());
     }
-    let what = format!("{}: {width}x{height}, {octaves} octaves", path.display());
+    let s = if *octaves == 1.0 { "" } else { "s" };
+    let what = format!("{}: {width}x{height}, {octaves} octave{s}", path.display());
     let map = args.onto.as_deref().unwrap_or(Path::new("")).display();
     match onto {
         None => writeln!(
