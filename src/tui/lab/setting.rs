@@ -25,6 +25,8 @@ pub enum Setting {
     Texels,
     /// The camera's height above the surface.
     Camera,
+    /// Where around the vertical the camera stands.
+    CameraAzimuth,
     /// The kind of light.
     Light,
     /// How high the light stands.
@@ -61,7 +63,7 @@ impl Setting {
             all.push(Self::Kind);
             all.extend(matches!(reading, Reading::Normal { .. }).then_some(Self::Green));
         }
-        all.extend([Self::Surface, Self::Texels, Self::Camera, Self::Light]);
+        all.extend([Self::Surface, Self::Texels, Self::Camera, Self::CameraAzimuth, Self::Light]);
         match &spec.light {
             LightSpec::Directional { .. } => all.extend([Self::LightElevation, Self::LightAzimuth]),
             LightSpec::Environment { .. } => all.push(Self::LightAzimuth),
@@ -81,6 +83,7 @@ impl Setting {
             Self::Surface => "surface",
             Self::Texels => "texels a pixel",
             Self::Camera => "camera above",
+            Self::CameraAzimuth => "camera from",
             Self::Light => "light",
             Self::LightElevation => "light above",
             Self::LightAzimuth => "light from",
@@ -103,6 +106,7 @@ impl Setting {
             Self::Surface => spec.surface.shape.name().to_owned(),
             Self::Texels => number(texels(spec)),
             Self::Camera => degrees(spec.camera.elevation),
+            Self::CameraAzimuth => degrees(spec.camera.azimuth),
             Self::Light => light(&spec.light),
             Self::LightElevation | Self::LightAzimuth => degrees(self.angle(spec)),
             Self::Lobe => spec.sweep.lobes[0].name().to_owned(),
@@ -159,10 +163,11 @@ impl Setting {
                 let to = stepped(self.angle(spec), 5.0, steps).clamp(5.0, 90.0);
                 setup.draft.set("light", "elevation", to);
             }
+            Self::CameraAzimuth => {
+                setup.draft.set("camera", "azimuth", turned(spec.camera.azimuth, steps));
+            }
             Self::LightAzimuth => {
-                let to = stepped(self.angle(spec), 10.0, steps);
-                // In (−180, 180].
-                let to = 180.0 - (180.0 - to).rem_euclid(360.0);
+                let to = turned(self.angle(spec), steps);
                 let key = if spec.light.is_environment() { "rotation" } else { "azimuth" };
                 setup.draft.set("light", key, to);
             }
@@ -206,6 +211,11 @@ fn stepped(now: f64, step: f64, steps: i32) -> f64 {
     let at = now / step;
     let from = if steps > 0 { (at + 1e-9).floor() } else { (at - 1e-9).ceil() };
     step * (from + f64::from(steps))
+}
+
+/// The next direction around the vertical, degrees in (−180, 180].
+fn turned(now: f64, steps: i32) -> f64 {
+    180.0 - (180.0 - stepped(now, 10.0, steps)).rem_euclid(360.0)
 }
 
 /// The next power of two, `parts` of them to a doubling, or so many on: the same numbers up and down.
