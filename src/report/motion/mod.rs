@@ -1,6 +1,6 @@
 //! Reports on things that move: animations first, then how methods flicker beside the truth.
 
-mod animation;
+pub mod animation;
 mod answer;
 pub mod csv;
 mod curves;
