@@ -65,7 +65,8 @@ impl<'a> Words<'a> {
                 let measures = [("map", Measure::Map), ("solid-angle", Measure::SolidAngle)];
                 let measure = reader.choice("measure", &measures);
                 let text = ndf.text()?;
-                written.push(format!("ndf = {text:?}, {measure:?}"));
+                let by_angle = if measure == Measure::SolidAngle { ", by solid angle" } else { "" };
+                written.push(format!("ndf = {text:?}{by_angle}"));
                 match NdfSource::parse(text, &folder(reader), measure) {
                     Ok(source) => Some(Some(source)),
                     Err(message) => {
