@@ -100,3 +100,23 @@ impl Shown<'_> {
         Picture { width: map.width(), height: map.height(), rgb: rgb.collect() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn animations_go_into_the_page_as_far_as_room_lasts() {
+        let films = [0.1, 0.2, 0.4].map(|v| Film::new(6, 4, vec![v; 24]));
+        let films = films.iter().collect();
+        let shown = Shown { label: "reference", remark: String::new(), method: None, films };
+        let scales = Scales { white: 1.0, flicker: 0.1, fps: 12 };
+        let mut clips = [(); 3].map(|()| Clip::of(&shown, "x", scales));
+        let size = data_uri(&clips[0].animation).len();
+        let mut room = 2 * size + 1;
+        clips.iter_mut().for_each(|clip| clip.embed(&mut room));
+        assert_eq!(clips.each_ref().map(|clip| clip.uri.is_some()), [true, true, false]);
+        assert_eq!(room, 1);
+        assert_eq!(clips[0].frames.len(), 3);
+    }
+}
