@@ -1,12 +1,13 @@
 //! The report page in a real browser: keys flip, zoom and pan are one for all images, values are those of the films,
 //! improvement has its sign, nothing is fetched. Skipped with a notice where there is no browser, unless
 //! `WRINKLE_BROWSER=required`.
-//! Frames are tested in `motion.rs`.
+//! Frames are tested in `motion.rs`, figures of papers in `paper.rs`.
 #![cfg(unix)]
 #![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 mod chromium;
 mod motion;
+mod paper;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

@@ -5,6 +5,10 @@ const nextMap = (scene) => {
   scene.set({ map: names[(names.indexOf(scene.state.map) + 1) % names.length] });
 };
 const swap = (scene) => scene.set({ one: scene.state.other, other: scene.state.one });
+const fitOrClose = (scene) => {
+  if (scene.camera.zoom === 1 && scene.section.classList.contains("exact")) scene.lookCloser(false);
+  scene.showInset(-1);
+};
 const pan = (across, down) => (scene) => scene.look((camera) => camera.moveBy(across, down));
 const zoom = (factor) => (scene) => scene.look((camera) => camera.zoomBy(factor));
 
@@ -25,7 +29,7 @@ const bindings = [
   [["-"], "−", "zoom out", zoom(Math.SQRT1_2)],
   [["h", "j", "k", "l"], "h j k l", "move to the left, down, up, to the right", null],
   [["i"], "i", "the next inset, then all of the image", (scene) => scene.nextInset()],
-  [["f", "Escape"], "f, Esc", "all of the image", (scene) => scene.showInset(-1)],
+  [["f", "Escape"], "f, Esc", "all of the image; then, of a paper’s figure, as it was printed", fitOrClose],
   [["?"], "?", "this help", () => showHelp()],
 ];
 /** The same of scenes that move. */
@@ -46,8 +50,8 @@ const help = make(
     "dl",
     {},
     ...[
-      ["0", "the reference"],
-      ["1 … 9", "a method; with Shift, or by its number’s key, ten more"],
+      ["0", "the reference; of a paper’s figure, its first image"],
+      ["1 … 9", "a method, or image; with Shift, or by its number’s key, ten more"],
       ...bindings.map(([, keys, does]) => [keys, does]),
       ...frameBindings.map(([, keys, does]) => [keys, `of what moves: ${does}`]),
       ["wheel", "zoom about the pointer, once a scene was clicked or reached by Tab; with Ctrl always"],

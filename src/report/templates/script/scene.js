@@ -22,7 +22,17 @@ class Scene {
     this.redraw = oncePerFrame(() => this.draw());
     watchPointer(this, this.bench.canvas, null);
     this.awake = false;
+    // A figure of a paper stands as it was printed until one looks closer.
+    this.open = !section.classList.contains("exact");
     this.bench.tell();
+  }
+
+  /** Shows the bench. */
+  lookCloser(open) {
+    if (open === this.open) return;
+    this.open = open;
+    this.section.classList.toggle("open", open);
+    this.redraw();
   }
 
   get count() {
@@ -94,7 +104,9 @@ class Scene {
   }
 
   choose(i) {
-    if (i >= 0 && i < this.count) this.set({ one: i });
+    if (i < 0 || i >= this.count) return;
+    this.lookCloser(true);
+    this.set({ one: i });
   }
 
   step(by) {
@@ -157,7 +169,7 @@ class Scene {
 
   draw() {
     if (!this.films) return;
-    this.bench.draw();
+    if (this.open) this.bench.draw();
     this.figures.forEach((figure) => figure.draw());
   }
 }
@@ -187,7 +199,7 @@ class FilmFigure {
   draw() {
     const { scene, film } = this;
     const { seen } = scene.camera;
-    this.figure.classList.toggle("on", film === scene.state.one);
+    this.figure.classList.toggle("on", scene.open && film === scene.state.one);
     for (const [canvas, map] of [[this.above, "radiance"], [this.below, scene.state.below]]) {
       if (!canvas) continue;
       const { context, width, height } = prepare(canvas);
@@ -202,6 +214,8 @@ class FilmFigure {
     const { scene, film } = this;
     const { insets } = scene;
     this.figure.style.setProperty("--insets", String(Math.max(1, insets.length)));
+    this.close.hidden = insets.length === 0;
+    if (this.close.hidden) return;
     const { context, width, height } = prepare(this.close);
     context.clearRect(0, 0, width, height);
     const gap = 3;
