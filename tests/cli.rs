@@ -192,6 +192,56 @@ fn render_writes_the_image_and_names_it() {
 }
 
 #[test]
+fn render_puts_bumps_on_any_surface_and_lets_them_move() {
+    let folder = folder();
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+    fs::write(folder.path().join("triangle.obj"), triangle).unwrap();
+    let render = |args: &[&str]| {
+        let done = output(folder.path(), &[&["render"], args].concat());
+        assert_eq!(done.status.code(), Some(0), "{args:?}: {}", err(&done));
+    };
+    let film = |name: &str| {
+        let stored = wrinkle::render::read_image(&folder.path().join(name)).unwrap();
+        stored.channels[0].pixels().to_vec()
+    };
+    let lit = |name: &str| film(name).iter().filter(|radiance| **radiance > 0.0).count();
+    for shape in ["teapot", "cylinder", "triangle.obj"] {
+        render(&["tiny.toml", "--shape", shape, "--size", "40x30", "--out", "o.exr"]);
+        assert!((1..1200).contains(&lit("o.exr")), "{shape}: {} pixels lit", lit("o.exr"));
+    }
+    // A setting changes what the experiment says, a pattern is a texture.
+    render(&["tiny.toml", "--set", "light.irradiance=3", "--out", "bright.exr"]);
+    render(&["tiny.toml", "--out", "as-it-is.exr"]);
+    for (bright, usual) in film("bright.exr").iter().zip(&film("as-it-is.exr")) {
+        assert!((bright - 3.0 * usual).abs() <= 1e-5 * bright, "{bright} {usual}");
+    }
+    let words = ["letters", "--set", "texture.letters.text=AB", "--size", "9x7", "--out", "o.png"];
+    render(&words);
+
+    let turning = ["--animate", "--set", "motion.frames=3", "--out", "turning.png"];
+    render(&[&["tiny.toml", "--shape", "sphere"], &turning[..]].concat());
+    let file = std::io::BufReader::new(fs::File::open(folder.path().join("turning.png")).unwrap());
+    let frames = image::codecs::png::PngDecoder::new(file).unwrap().apng().unwrap();
+    let frames = image::AnimationDecoder::into_frames(frames).collect_frames().unwrap();
+    assert_eq!(frames.len(), 3);
+    assert_ne!(frames[0].buffer(), frames[1].buffer());
+
+    let wrong = |args: &[&str]| {
+        refused(folder.path(), &[&["render", "tiny.toml", "--out", "o.png"], args].concat(), 2)
+    };
+    assert!(wrong(&["--shape", "teapto"]).contains("did you mean \"teapot\"?"));
+    assert!(wrong(&["--shape", "gone.glb"]).contains("there is no file gone.glb"));
+    let message = wrong(&["--set", "camera.elevatoin=3"]);
+    assert!(message.contains("camera.elevatoin=3: unknown key"), "{message}");
+    assert!(wrong(&["--set", "elevation"]).contains("KEY=VALUE"));
+    assert!(wrong(&["--animate", "--set", "motion.frames=1"]).contains("motion.frames=1: "));
+    let huge = ["--animate", "--set", "motion.frames=500", "--size", "4000x4000"];
+    assert!(wrong(&huge).contains("lower --size"));
+    let exr = ["render", "tiny.toml", "--animate", "--out", "o.exr"];
+    assert!(refused(folder.path(), &exr, 2).contains("--animate writes PNG"));
+}
+
+#[test]
 fn render_tells_what_there_is_instead() {
     let folder = folder();
     let render = |args: &[&str]| {
@@ -318,7 +368,8 @@ fn a_wrong_multiple_surface_is_refused() {
         (&["lobes", "velvet", "--json", "--azimuth=nan"], "from -360 to 360"),
         (&["render", "bad.json", "--out", "o.png"], "bad.json: invalid type"),
         (&["render", "silk", "--method", "lean", "--out", "o.png"], "leave out --method"),
-        (&["render", "tiny.toml", "--shape", "plane", "--out", "o.png"], "--shape is for"),
+        (&["render", "silk", "--shape", "teapot", "--out", "o.png"], "a sphere or a plane"),
+        (&["render", "silk", "--set", "seed=3", "--out", "o.png"], "leave out --set"),
     ] {
         let message = refused(folder.path(), args, 2);
         assert!(message.contains(says), "{args:?}: {message}");

@@ -362,7 +362,7 @@ fn a_spec_tiles_to_the_texels_it_asks_for() {
         [sweep]\ntexture = [\"mine\"]\nmethod = [\"unfiltered\"]\n\
         [texture.mine]\nfile = \"map.png\"\nkind = \"normal\"\n";
     let spec = Spec::parse(spec, &folder.path().join("spec.toml")).unwrap();
-    let wish = Wish { texture: None, texels_per_pixel: Some(0.4), spp: 1 };
+    let wish = Wish { texture: None, texels_per_pixel: Some(0.4), spp: 1, frame: 0 };
     let film =
         render_one(&spec, build("unfiltered").unwrap().as_ref(), &wish, &wrinkle::method::Silent)
             .unwrap();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args as ArgGroup, Parser, Subcommand};
 
 use crate::experiment::share::Share;
+use crate::experiment::spec::Setting;
 use crate::job;
 use crate::metric;
 use crate::tui::picture::{Colours, Pictures};
@@ -179,10 +180,14 @@ pub struct ListArgs {
   wrinkle render my_normals.png --method schilling-anisotropic --out look.png
   wrinkle render quick --texture small-twill --method fournier --spp 4 --out twill.exr
   wrinkle render velvet --shape sphere --out velvet.png
-  wrinkle render height.png --kind height --height-scale 8 --texels-per-pixel 2 --out h.png")]
+  wrinkle render height.png --kind height --height-scale 8 --texels-per-pixel 2 --out h.png
+  wrinkle render my_normals.png --shape teapot --method lean --out teapot.png
+  wrinkle render my_normals.png --shape statue.glb --set material.exponent=200 --out statue.png
+  wrinkle render letters --set texture.letters.text=\"MY TEXT\" --shape ribbon --out letters.png
+  wrinkle render my_normals.png --shape sphere --animate --spp 4 --size 240x240 --out turning.png")]
 pub struct RenderArgs {
-    /// An experiment (name or TOML file), an image file that holds a normal or height map, or a multiple
-    /// surface (name or JSON file of peaks).
+    /// An experiment (name or TOML file), an image file that holds a normal or height map, a pattern, or a
+    /// multiple surface (name or JSON file of peaks).
     #[arg(value_name = "FILE")]
     pub file: String,
     /// The filter; `wrinkle list` shows them.
@@ -200,9 +205,18 @@ pub struct RenderArgs {
     /// Texels across a pixel at the image's centre; the experiment's first scale, or 4, if not given.
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub texels_per_pixel: Option<f64>,
-    /// What a multiple surface covers; a sphere if not given.
-    #[arg(long, value_parser = ["sphere", "plane"])]
+    /// What the bumps, or a multiple surface, cover: a surface (`wrinkle list`), or an OBJ, glTF or GLB file. If
+    /// not given, the experiment's own; a plane; of a multiple surface a sphere.
+    #[arg(long, value_name = "NAME|FILE")]
     pub shape: Option<String>,
+    /// Changes any setting of the experiment, or of the default scene, as docs/experiments.md has them; may be
+    /// given more than once.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<Setting>,
+    /// Write all frames of a motion as an animated PNG. If no KIND is given, it is the experiment's own, or the object
+    /// turns once round.
+    #[arg(long, value_name = "KIND", num_args = 0..=1, require_equals = true, value_parser = ["rotate", "light", "drift", "approach", "recede"])]
+    pub animate: Option<Option<String>>,
     /// Width and height of the image; the experiment's, or 640x480, if not given.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(usize, usize)>,

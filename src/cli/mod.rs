@@ -3,6 +3,7 @@
 mod args;
 mod bake;
 mod compare;
+mod draft;
 mod exit;
 mod fit;
 mod list;

@@ -7,8 +7,8 @@ use super::spec::{LightSpec, Scale, Spec, SurfaceSpec, TextureSpec, no_such};
 use crate::method::{Method, Progress};
 use crate::render::{self, Film, Filtered, PixelSampler};
 use crate::scene::{
-    Current, Failure, Halt, LightSource, Map, ProbePlan, ReferencePlan, SceneOf, StagedScene,
-    Stagehand, SurfaceShape, stage,
+    Current, Failure, Halt, LightSource, Map, MovedLight, ProbePlan, ReferencePlan, SceneOf,
+    StagedScene, Stagehand, SurfaceShape, stage,
 };
 
 /// Which image of an experiment.
@@ -20,6 +20,8 @@ pub struct Wish<'a> {
     pub texels_per_pixel: Option<f64>,
     /// Samples a pixel, at least 1.
     pub spp: u32,
+    /// Which frame, where things move, the first being 0, which stands for those there are not.
+    pub frame: u32,
 }
 
 /// Why there is no image; a sentence.
@@ -53,13 +55,17 @@ impl Stock {
         let one = one_of(spec, wish)?;
         let mut hand = Stagehand::new(spec.seed, Halt::default());
         let plan = author(&one, &mut hand);
-        let scene = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
+        let first = plan.scenes.first().expect("a spec has a texture, a lobe and a scale");
+        let mut frames = plan.scenes.iter().take_while(|scene| scene.sequence == first.sequence);
+        let scene = frames.nth(wish.frame as usize).unwrap_or(first);
         hand.world.insert_resource(Current(scene.entity));
         let of = *hand.world.get::<SceneOf>(scene.entity).expect("a scene names its parts");
         let texture = (one.sweep.textures[0].clone(), one.needs_heights());
         lend(&self.texture, &texture, &mut hand.world, of.texture);
         lend(&self.surface, &one.surface, &mut hand.world, of.surface);
-        lend(&self.light, &one.light, &mut hand.world, of.light);
+        // A light that has moved is made of the one at rest.
+        let light = hand.world.get::<MovedLight>(of.light).map_or(of.light, |moved| moved.of);
+        lend(&self.light, &one.light, &mut hand.world, light);
         // With no method in the sweep, and neither reference nor probes, a tick loads what is missing and no more.
         hand.world.entity_mut(scene.entity).remove::<(ReferencePlan, ProbePlan)>();
         hand.tick();
@@ -71,7 +77,7 @@ impl Stock {
         let kept = &hand.world;
         self.texture = kept.get::<Map>(of.texture).cloned().map(|map| (texture, map));
         self.surface = kept.get::<SurfaceShape>(of.surface).cloned().map(|s| (one.surface, s));
-        self.light = kept.get::<LightSource>(of.light).cloned().map(|light| (one.light, light));
+        self.light = kept.get::<LightSource>(light).cloned().map(|light| (one.light, light));
         Ok(staged)
     }
 
@@ -128,13 +134,37 @@ pub fn render_one(
     wish: &Wish<'_>,
     progress: &dyn Progress,
 ) -> Result<Film, NoImage> {
-    let staged = stage_one(spec, wish)?;
+    let mut films = render_frames(spec, method, wish, 1, progress)?;
+    films.pop().ok_or_else(|| NoImage("there is no frame".into()))
+}
+
+/// Renders `count` frames from the one wished for on, through one prefiltered map. `progress` hears of the prefilter,
+/// then of the frames.
+///
+/// # Errors
+/// Those of [`render_one`].
+pub fn render_frames(
+    spec: &Spec,
+    method: &dyn Method,
+    wish: &Wish<'_>,
+    count: u32,
+    progress: &dyn Progress,
+) -> Result<Vec<Film>, NoImage> {
+    let mut stock = Stock::default();
+    let staged = stock.stage_one(spec, wish)?;
     let prefiltered = method
         .prefilter(&staged.map, &staged.material.base, progress)
         .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;
     let sampler = PixelSampler::new(wish.spp);
-    let filtered =
-        Filtered { map: &staged.map, card: method.card(), prefiltered: prefiltered.as_ref() };
-    render::trial(&staged.view, &filtered, &sampler, spec.seed, 0, &|| false)
-        .map_err(|error| NoImage(error.to_string()))
+    let mut films = Vec::new();
+    for frame in wish.frame..wish.frame.saturating_add(count) {
+        let staged = stock.stage_one(spec, &Wish { frame, ..*wish })?;
+        let filtered =
+            Filtered { map: &staged.map, card: method.card(), prefiltered: prefiltered.as_ref() };
+        let film = render::trial(&staged.view, &filtered, &sampler, spec.seed, 0, &|| false)
+            .map_err(|error| NoImage(error.to_string()))?;
+        films.push(film);
+        progress.advance(films.len(), count as usize);
+    }
+    Ok(films)
 }

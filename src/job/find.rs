@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::evidence;
-use crate::experiment::spec::{Experiment, Spec, SpecErrors, no_such};
+use crate::experiment::spec::{Draft, Experiment, Spec, SpecErrors, no_such};
 
 /// The experiment that is meant where none is named.
 pub const DEFAULT: &str = "highlight";
@@ -122,4 +122,18 @@ pub fn load_sweep(name: &str) -> Result<Spec, FindError> {
     let known: Vec<&str> = paper.parts.iter().map(|part| part.name.as_str()).collect();
     let found = paper.parts.iter().find(|spec| spec.name == part).cloned();
     found.ok_or_else(|| FindError::NoSuch(no_such("part", part, &known)))
+}
+
+/// The spec of a sweep by name or path, as [`load_sweep`] finds it, to be changed before it is read.
+///
+/// # Errors
+/// Those of [`load_sweep`].
+pub fn draft(name: &str) -> Result<Draft, FindError> {
+    let spec = load_sweep(name)?;
+    let whole = name.strip_suffix(&format!("/{}", spec.name)).unwrap_or(name);
+    let (path, part) = match locate(name) {
+        Ok(path) => (path, None),
+        Err(_) => (locate(whole)?, Some(spec.name.as_str())),
+    };
+    Draft::of_text(&spec.text, part, &path).map_err(FindError::NoSuch)
 }

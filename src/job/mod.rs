@@ -13,7 +13,9 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 pub use control::{Control, Gate};
-pub use find::{DEFAULT, FOLDER, FindError, is_image, load, load_sweep, locate, names, names_in};
+pub use find::{
+    DEFAULT, FOLDER, FindError, draft, is_image, load, load_sweep, locate, names, names_in,
+};
 pub use shards::{MergeError, merge, run_shard, shard_folder};
 pub use verify::{Difference, FileNow, Verified, VerifyError, differences, reports_in, verify};
 

@@ -33,6 +33,30 @@ impl View {
         self.sight(x, y, 1.0).map(|sight| sight.footprint)
     }
 
+    /// The pixel nearest to `pixel`, itself first, whose centre sees the surface; of equally near ones the first in
+    /// reading order. `None` if none does.
+    pub fn seen_nearest(&self, pixel: [usize; 2]) -> Option<[usize; 2]> {
+        let seen = |[i, j]: [usize; 2]| self.footprint(i as f64 + 0.5, j as f64 + 0.5).is_some();
+        if seen(pixel) {
+            return Some(pixel);
+        }
+        let (width, height) = (self.camera.width(), self.camera.height());
+        // Its square distance, row and column.
+        let mut nearest: Option<[usize; 3]> = None;
+        for ring in 1..width.max(height) {
+            if nearest.is_some_and(|[square, ..]| square < ring * ring) {
+                break;
+            }
+            for [i, j] in around(pixel, ring, [width, height]) {
+                let square = i.abs_diff(pixel[0]).pow(2) + j.abs_diff(pixel[1]).pow(2);
+                if nearest.is_none_or(|least| [square, j, i] < least) && seen([i, j]) {
+                    nearest = Some([square, j, i]);
+                }
+            }
+        }
+        nearest.map(|[_, j, i]| [i, j])
+    }
+
     /// What the ray through image point (x, y) meets, for a sample that stands for the part `spacing` of a
     /// pixel's side; None where it misses.
     pub(super) fn sight(&self, x: f64, y: f64, spacing: f64) -> Option<Sight> {
@@ -207,4 +231,55 @@ fn store(lanes: &mut [[f32; BATCH]; 3], i: usize, v: Vec3) {
     lanes[0][i] = v.x as f32;
     lanes[1][i] = v.y as f32;
     lanes[2][i] = v.z as f32;
+}
+
+/// The pixels of an image on the square of this half side about one of them, in reading order.
+fn around(
+    [x, y]: [usize; 2],
+    ring: usize,
+    [width, height]: [usize; 2],
+) -> impl Iterator<Item = [usize; 2]> {
+    let within = move |c: usize, side: usize| c.saturating_sub(ring)..(c + ring + 1).min(side);
+    let on = move |[i, j]: &[usize; 2]| i.abs_diff(x).max(j.abs_diff(y)) == ring;
+    within(y, height).flat_map(move |j| within(x, width).map(move |i| [i, j])).filter(on)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec3;
+    use crate::lobe::Shading;
+    use crate::render::Camera;
+    use crate::surface::{Shape, Sphere};
+
+    fn sphere_beside(target: Vec3) -> View {
+        View {
+            camera: Camera::look_at(Vec3::new(0.0, -4.0, 0.0), target, 40.0, 24, 17),
+            surface: Shape::Sphere(Sphere::new()),
+            light: Light::Directional { direction: Vec3::z(), irradiance: 1.0 },
+            shading: Shading::Ndf,
+            wrap: Wrap::Repeat,
+            lookup: Lookup::default(),
+        }
+    }
+
+    #[test]
+    fn the_nearest_pixel_that_sees_the_surface_is_found() {
+        let targets = [[0.0, 0.0], [1.2, 0.0], [-1.3, 0.9], [0.2, -1.5]];
+        for [x, z] in targets {
+            let view = sphere_beside(Vec3::new(x, 0.0, z));
+            for pixel in [[12, 8], [6, 4], [0, 0], [23, 16]] {
+                let seen = (0..24 * 17)
+                    .map(|k| [k % 24, k / 24])
+                    .filter(|[i, j]| view.footprint(*i as f64 + 0.5, *j as f64 + 0.5).is_some());
+                let away = |at: [usize; 2]| {
+                    at[0].abs_diff(pixel[0]).pow(2) + at[1].abs_diff(pixel[1]).pow(2)
+                };
+                let want = seen.min_by_key(|at| away(*at));
+                assert!(want.is_some());
+                assert_eq!(view.seen_nearest(pixel), want, "{pixel:?} with the eye on {x} {z}");
+            }
+        }
+        assert_eq!(sphere_beside(Vec3::new(0.0, -8.0, 0.0)).seen_nearest([3, 3]), None);
+    }
 }

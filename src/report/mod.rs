@@ -73,6 +73,7 @@ pub use index::write_index;
 pub use lobe_sheet::lobe_sheet;
 
 use crate::experiment::results::{Costs, Results};
+use crate::render::Film;
 
 /// Writes the whole report into the folder `out`, made if missing, and names the files written.
 ///
@@ -124,6 +125,12 @@ pub fn lead(results: &Results) -> Vec<String> {
     } else {
         motion::page::lead(results)
     }
+}
+
+/// Films of one size as an animated PNG file of 8-bit grey that plays for ever, with the radiance `white` shown as white.
+/// At least one film.
+pub fn animated(films: &[&Film], white: f64, fps: u32) -> Vec<u8> {
+    motion::animation::Codes::of(films, white).animated(fps)
 }
 
 #[cfg(test)]

@@ -110,13 +110,14 @@ pub(super) fn probe(
     progress.write(Progress::Probed { scene: current.0 });
 }
 
-/// The probe of one pixel; None if it misses the surface.
+/// The probe of one pixel, or of the nearest that sees the surface; None if none does.
 fn probed(
     staged: &StagedScene,
     pixel: [usize; 2],
     prefilters: &[(Entity, Lookup, &dyn Prefiltered)],
 ) -> Option<Probe> {
     let maps: Vec<_> = prefilters.iter().map(|&(_, lookup, map)| (lookup, map)).collect();
+    let pixel = staged.view.seen_nearest(pixel)?;
     let Under { texels_across, truth, methods } = look_under(staged, pixel, PROBE_POINTS, &maps)?;
     let of = |(found, &(prefilter, ..)): (Held, &(Entity, Lookup, &dyn Prefiltered))| {
         let Held { surface, density, distance, kl, wasserstein } = found;

@@ -132,7 +132,7 @@ pub struct ReferencePlan {
     pub truth: Truth,
 }
 
-/// Image points (pixels) whose footprints' distributions are looked at.
+/// Pixels whose footprints' distributions are looked at, or where the surface is not there, those nearest to them.
 #[derive(Component, Clone, Debug)]
 pub struct ProbePlan(pub Vec<[usize; 2]>);
 

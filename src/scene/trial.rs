@@ -106,10 +106,16 @@ pub(super) fn tiled(view: View, tiling: Tiling, map: &NormalMap) -> View {
     View { surface: view.surface.tiled(tiles, aspect), ..view }
 }
 
-/// Texels across the pixel at the image's centre.
+/// Texels across the pixel at the image's centre, or where the surface is not there, across the nearest pixel that sees
+/// it; `None` if none does.
 pub fn texels_across_centre(view: &View, map: &NormalMap) -> Option<f64> {
-    let (x, y) = (0.5 * view.camera.width() as f64, 0.5 * view.camera.height() as f64);
-    Some(view.footprint(x, y)?.texels_across(map.width(), map.height()))
+    let (width, height) = (view.camera.width(), view.camera.height());
+    let near = || {
+        let [i, j] = view.seen_nearest([width / 2, height / 2])?;
+        view.footprint(i as f64 + 0.5, j as f64 + 0.5)
+    };
+    let footprint = view.footprint(0.5 * width as f64, 0.5 * height as f64).or_else(near)?;
+    Some(footprint.texels_across(map.width(), map.height()))
 }
 
 /// Renders one trial of the current scene that has no film yet.

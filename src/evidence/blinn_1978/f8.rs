@@ -21,7 +21,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let mut panels = Vec::new();
     for texture in &part.spec.sweep.textures {
         task.go_on()?;
-        let wish = Wish { texture: Some(&texture.name), texels_per_pixel: None, spp: 1 };
+        let wish = Wish { texture: Some(&texture.name), texels_per_pixel: None, spp: 1, frame: 0 };
         // The part has run, so its texture is there.
         let Ok(staged) = stage_one(&part.spec, &wish) else { continue };
         let Some(heights) = staged.map.heights() else { continue };

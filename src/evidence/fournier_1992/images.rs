@@ -170,7 +170,7 @@ fn at_scale(scene: &SceneResult, title: &str, exhibit: &mut Exhibit, table: &mut
 /// "The texture is slightly more aliased near the north pole with filtering than with super sampling."
 fn near_the_pole(part: &FinishedPart) -> Claim {
     let scene = &part.results.scenes[0];
-    let wish = Wish { texture: None, texels_per_pixel: None, spp: 1 };
+    let wish = Wish { texture: None, texels_per_pixel: None, spp: 1, frame: 0 };
     let near = stage_one(&part.spec, &wish).map(|staged| {
         let (camera, surface) = (staged.view.camera, staged.view.surface);
         let hit = |x: usize, y: usize| -> bool {

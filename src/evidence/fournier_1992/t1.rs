@@ -42,7 +42,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let mut table = Table::new("costs", caption, &head);
     for (part, in_1992) in ROW.parts.iter().zip(IN_1992) {
         let part = task.part(part);
-        let wish = Wish { texture: None, texels_per_pixel: None, spp: 1 };
+        let wish = Wish { texture: None, texels_per_pixel: None, spp: 1, frame: 0 };
         // The part has run, so its texture is there.
         let Ok(staged) = stage_one(&part.spec, &wish) else { continue };
         let today = times(&staged, task)?;

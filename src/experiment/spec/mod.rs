@@ -6,6 +6,7 @@
 
 mod budget;
 mod catalogue;
+pub mod draft;
 mod error;
 mod item;
 mod light;
@@ -35,6 +36,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 pub use budget::BudgetSpec;
+pub use draft::{Draft, Setting};
 pub use error::{SpecError, SpecErrors};
 pub use light::{EnvironmentSource, LightSpec};
 pub use method::MethodSpec;

@@ -138,7 +138,7 @@ impl Experiment {
 }
 
 /// Keys of the whole, which parts do not inherit.
-const OWN: [&str; 5] = ["paper", "title", "question", "part", "row"];
+pub(super) const OWN: [&str; 5] = ["paper", "title", "question", "part", "row"];
 
 fn read_paper(
     log: &Log,

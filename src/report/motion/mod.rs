@@ -1,6 +1,6 @@
 //! Reports on things that move: images in motion first, then how methods flicker beside the truth.
 
-mod animation;
+pub mod animation;
 mod answer;
 mod clip;
 pub mod csv;

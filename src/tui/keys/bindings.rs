@@ -116,6 +116,8 @@ pub const BINDINGS: &[Binding] = {
         bind(C::Lab, &[c('I')], A::LightDown, "lower the light", ""),
         bind(C::Lab, &[c('a')], A::LightLeft, "turn the light to the left", ""),
         bind(C::Lab, &[c('A')], A::LightRight, "turn the light to the right", ""),
+        bind(C::Lab, &[c('y')], A::CameraLeft, "walk round: the camera to the left", ""),
+        bind(C::Lab, &[c('Y')], A::CameraRight, "walk round: the camera to the right", ""),
         bind(C::Lab, &[c('w')], A::Wider, "a wider base lobe: a rougher surface", "width"),
         bind(C::Lab, &[c('W')], A::Narrower, "a narrower base lobe: a smoother surface", ""),
         bind(

@@ -174,6 +174,8 @@ pub enum Action {
     LightDown,
     LightLeft,
     LightRight,
+    CameraLeft,
+    CameraRight,
     Wider,
     Narrower,
     Lookup,

@@ -63,7 +63,7 @@ impl Bench {
     /// # Errors
     /// Why that cannot be, a sentence.
     pub fn new(wanted: Wanted, stock: &mut Stock) -> Result<Self, String> {
-        let wish = Wish { texture: None, texels_per_pixel: None, spp: wanted.spp };
+        let wish = Wish { texture: None, texels_per_pixel: None, spp: wanted.spp, frame: 0 };
         let staged = stock.stage_one(&wanted.spec, &wish).map_err(|error| error.to_string())?;
         let methods: Vec<_> = wanted.spec.sweep.methods.iter().map(|m| m.build()).collect();
         let count = methods.len();
@@ -326,9 +326,14 @@ mod tests {
             width = 16
             height = 16
         "#;
-        let mut setup = Setup::of_experiment("t", text, std::path::Path::new("t.toml")).unwrap();
-        setup.set("image", "width", 24);
-        setup.set("image", "height", 18);
+        let mut setup = Setup::of_draft(
+            "t",
+            crate::experiment::spec::Draft::of_text(text, None, std::path::Path::new("t.toml"))
+                .unwrap(),
+        )
+        .unwrap();
+        setup.draft.set("image", "width", 24);
+        setup.draft.set("image", "height", 18);
         let wanted = Wanted { scene: 1, spec: setup.spec().unwrap(), spp: 1, first: vec![4] };
         Bench::new(wanted, &mut Stock::default()).unwrap()
     }

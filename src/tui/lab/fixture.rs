@@ -67,8 +67,8 @@ fn under() -> Under {
 pub fn full(size: [u16; 2], depth: Depth) -> Model {
     let mut model = empty(size, depth);
     let mut setup = setup();
-    setup.set("image", "width", 32);
-    setup.set("image", "height", 24);
+    setup.draft.set("image", "width", 32);
+    setup.draft.set("image", "height", 24);
     let opened = Told::Opened(Ok(Box::new(setup)));
     update(&mut model, Message::Lab(opened));
     let scene = model.lab.scene;

@@ -25,6 +25,8 @@ pub enum Setting {
     Texels,
     /// The camera's height above the surface.
     Camera,
+    /// Where around the vertical the camera stands.
+    CameraAzimuth,
     /// The kind of light.
     Light,
     /// How high the light stands.
@@ -61,7 +63,7 @@ impl Setting {
             all.push(Self::Kind);
             all.extend(matches!(reading, Reading::Normal { .. }).then_some(Self::Green));
         }
-        all.extend([Self::Surface, Self::Texels, Self::Camera, Self::Light]);
+        all.extend([Self::Surface, Self::Texels, Self::Camera, Self::CameraAzimuth, Self::Light]);
         match &spec.light {
             LightSpec::Directional { .. } => all.extend([Self::LightElevation, Self::LightAzimuth]),
             LightSpec::Environment { .. } => all.push(Self::LightAzimuth),
@@ -81,6 +83,7 @@ impl Setting {
             Self::Surface => "surface",
             Self::Texels => "texels a pixel",
             Self::Camera => "camera above",
+            Self::CameraAzimuth => "camera from",
             Self::Light => "light",
             Self::LightElevation => "light above",
             Self::LightAzimuth => "light from",
@@ -103,6 +106,7 @@ impl Setting {
             Self::Surface => spec.surface.shape.name().to_owned(),
             Self::Texels => number(texels(spec)),
             Self::Camera => degrees(spec.camera.elevation),
+            Self::CameraAzimuth => degrees(spec.camera.azimuth),
             Self::Light => light(&spec.light),
             Self::LightElevation | Self::LightAzimuth => degrees(self.angle(spec)),
             Self::Lobe => spec.sweep.lobes[0].name().to_owned(),
@@ -130,7 +134,7 @@ impl Setting {
                 let at = setup.textures.iter().position(|name| name == setup.texture());
                 let next = round(at, steps, setup.textures.len());
                 let name = Value::from(setup.textures[next].as_str());
-                setup.set("sweep", "texture", Value::Array(vec![name]));
+                setup.draft.set("sweep", "texture", Value::Array(vec![name]));
             }
             Self::Green => {
                 let turned = if green(&spec.sweep.textures[0]) == "up" { "down" } else { "up" };
@@ -142,35 +146,36 @@ impl Setting {
             Self::Surface => {
                 let shape = next(&SHAPES, spec.surface.shape.name(), steps);
                 // Other keys of [surface], and what the camera looks at, belong to the shape before.
-                setup.table.insert("surface".into(), toml::Table::new().into());
-                setup.set("surface", "shape", shape);
-                setup.section("camera").remove("target");
+                setup.draft.table.insert("surface".into(), toml::Table::new().into());
+                setup.draft.set("surface", "shape", shape);
+                setup.draft.section("camera").remove("target");
             }
             Self::Texels => {
                 let to = doubled(texels(spec), 2.0, steps).clamp(TEXELS[0], TEXELS[1]);
-                setup.set("sweep", "texels_per_pixel", Value::Array(vec![to.into()]));
+                setup.draft.set("sweep", "texels_per_pixel", Value::Array(vec![to.into()]));
             }
             Self::Camera => {
                 let to = stepped(spec.camera.elevation, 5.0, steps).clamp(5.0, 90.0);
-                setup.set("camera", "elevation", to);
+                setup.draft.set("camera", "elevation", to);
             }
             Self::Light => turn_light(setup, spec, steps),
             Self::LightElevation => {
                 let to = stepped(self.angle(spec), 5.0, steps).clamp(5.0, 90.0);
-                setup.set("light", "elevation", to);
+                setup.draft.set("light", "elevation", to);
+            }
+            Self::CameraAzimuth => {
+                setup.draft.set("camera", "azimuth", turned(spec.camera.azimuth, steps));
             }
             Self::LightAzimuth => {
-                let to = stepped(self.angle(spec), 10.0, steps);
-                // In (−180, 180].
-                let to = 180.0 - (180.0 - to).rem_euclid(360.0);
+                let to = turned(self.angle(spec), steps);
                 let key = if spec.light.is_environment() { "rotation" } else { "azimuth" };
-                setup.set("light", key, to);
+                setup.draft.set("light", key, to);
             }
             Self::Lobe => turn_lobe(setup, spec, steps),
             Self::Width => widen(setup, spec, steps),
             Self::Shading => {
                 let shading = next(&["ndf", "microfacet"], spec.shading.name(), steps);
-                setup.set("material", "shading", shading);
+                setup.draft.set("material", "shading", shading);
             }
             Self::Lookup => {
                 let at = Lookup::ALL.iter().position(|lookup| *lookup == setup.lookup);
@@ -184,8 +189,8 @@ impl Setting {
                 let now = [spec.image.width as i64, spec.image.height as i64];
                 let at = SIZES.iter().position(|size| *size == now);
                 let [width, height] = SIZES[round(at, steps, SIZES.len())];
-                setup.set("image", "width", width);
-                setup.set("image", "height", height);
+                setup.draft.set("image", "width", width);
+                setup.draft.set("image", "height", height);
             }
         }
     }
@@ -206,6 +211,11 @@ fn stepped(now: f64, step: f64, steps: i32) -> f64 {
     let at = now / step;
     let from = if steps > 0 { (at + 1e-9).floor() } else { (at - 1e-9).ceil() };
     step * (from + f64::from(steps))
+}
+
+/// The next direction around the vertical, degrees in (−180, 180].
+fn turned(now: f64, steps: i32) -> f64 {
+    180.0 - (180.0 - stepped(now, 10.0, steps)).rem_euclid(360.0)
 }
 
 /// The next power of two, `parts` of them to a doubling, or so many on: the same numbers up and down.
@@ -281,12 +291,12 @@ fn turn_light(setup: &mut Setup, spec: &Spec, steps: i32) {
         _ => Some(0),
     };
     let to = round(now, steps, names.len() + 1);
-    setup.table.insert("light".into(), toml::Table::new().into());
+    setup.draft.table.insert("light".into(), toml::Table::new().into());
     if to > 0 {
-        setup.set("light", "kind", "environment");
-        setup.set("light", "map", names[to - 1]);
+        setup.draft.set("light", "kind", "environment");
+        setup.draft.set("light", "map", names[to - 1]);
         // Environments are lit through plain distributions of normals only.
-        setup.set("material", "shading", "ndf");
+        setup.draft.set("material", "shading", "ndf");
     }
 }
 
@@ -298,14 +308,14 @@ fn turn_lobe(setup: &mut Setup, spec: &Spec, steps: i32) {
         _ => lobe.parameter(),
     };
     let family = next(&LOBES, lobe.name(), steps);
-    let material = setup.section("material");
+    let material = setup.draft.section("material");
     ["exponent", "alpha"].iter().for_each(|key| drop(material.remove(*key)));
-    setup.set("material", "lobe", family);
+    setup.draft.set("material", "lobe", family);
     let (key, value) = match family {
         "blinn-phong" => ("exponent", (2.0 / (alpha * alpha) - 2.0).clamp(1.0, 1e5)),
         _ => ("alpha", alpha.clamp(0.005, 1.0)),
     };
-    setup.set("material", key, rounded(value));
+    setup.draft.set("material", key, rounded(value));
 }
 
 /// Changes the lobe's number by quarters of a doubling of its roughness: an exponent goes by its square.
@@ -315,7 +325,7 @@ fn widen(setup: &mut Setup, spec: &Spec, steps: i32) {
         "blinn-phong" => ("exponent", doubled(lobe.parameter(), 2.0, steps).clamp(1.0, 1e5)),
         _ => ("alpha", doubled(lobe.parameter(), 4.0, steps).clamp(0.005, 1.0)),
     };
-    setup.set("material", key, value);
+    setup.draft.set("material", key, value);
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 //! A setup is an experiment's spec all the time. So every change is checked by the reader of specs, what it refuses
 //! is told in its words, and a scene worth measuring can be written as an experiment.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use toml::{Table, Value};
 
-use crate::experiment::spec::{Scale, Spec, SpecErrors};
+use crate::experiment::spec::draft::absolute;
+use crate::experiment::spec::{Draft, Scale, Spec, SpecErrors};
 use crate::method;
 use crate::pattern;
 use crate::texture::Lookup;
@@ -18,9 +19,7 @@ pub struct Setup {
     /// What was opened: an experiment's name, or a map's file.
     pub name: String,
     /// The spec.
-    pub(super) table: Table,
-    /// The file that paths in it are relative to.
-    path: PathBuf,
+    pub(super) draft: Draft,
     /// The textures there are to choose from.
     pub(super) textures: Vec<String>,
     /// The lookup of methods that have it.
@@ -50,40 +49,17 @@ const TEXELS: f64 = 4.0;
 const REFERENCE: i64 = 4096;
 
 impl Setup {
-    /// The first scene of an experiment, whose spec is `text` and came from `path`.
+    /// The first scene of an experiment.
     ///
     /// # Errors
-    /// A sentence, if it is no spec of a sweep.
-    pub fn of_experiment(name: &str, text: &str, path: &Path) -> Result<Self, String> {
-        Self::of_part(name, text, None, path)
-    }
-
-    /// The same of a paper's part, whose text is that of the whole.
-    ///
-    /// # Errors
-    /// A sentence, if there is no such part, or it is no sweep.
-    pub fn of_part(
-        name: &str,
-        text: &str,
-        part: Option<&str>,
-        path: &Path,
-    ) -> Result<Self, String> {
-        let mut table: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
-        if let Some(part) = part {
-            let own = table.get("part").and_then(|parts| parts.get(part)?.as_table()).cloned();
-            let own = own.ok_or_else(|| format!("{name}: there is no part `{part}`"))?;
-            ["paper", "title", "question", "part", "row"]
-                .iter()
-                .for_each(|k| drop(table.remove(*k)));
-            lay_over(&mut table, own);
-        }
-        let spec = Spec::parse(&table.to_string(), path).map_err(|errors| first(&errors))?;
-        table.remove("motion");
+    /// A sentence, if something is wrong with it.
+    pub fn of_draft(name: &str, mut draft: Draft) -> Result<Self, String> {
+        let spec = draft.read().map_err(|errors| first(&errors))?;
+        draft.table.remove("motion");
         let mut setup = Self {
             name: name.to_owned(),
-            textures: textures(&spec, &table),
-            table,
-            path: path.to_owned(),
+            textures: textures(&spec, &draft.table),
+            draft,
             lookup: Lookup::default(),
             spp: 1,
         };
@@ -97,12 +73,8 @@ impl Setup {
     /// # Errors
     /// A sentence, if there is no such file.
     pub fn of_map(file: &Path) -> Result<Self, String> {
-        let path =
-            std::path::absolute(file).map_err(|error| format!("{}: {error}", file.display()))?;
-        let Some(written) = path.to_str() else {
-            return Err(format!("the path of {} is not UTF-8: rename it", file.display()));
-        };
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let written = absolute(file)?;
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
         let safe =
             |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
         let texture: String = stem.chars().map(safe).collect();
@@ -111,16 +83,10 @@ impl Setup {
         map.insert("file".into(), written.into());
         map.insert("kind".into(), "normal".into());
         map.insert("green".into(), "up".into());
-        let mut sweep = Table::new();
-        sweep.insert("texture".into(), list([texture.as_str()]));
-        sweep.insert("method".into(), list(["unfiltered"]));
-        sweep.insert("texels_per_pixel".into(), list([TEXELS]));
-        let mut table = Table::new();
-        table.insert("title".into(), format!("{stem} in the lab").into());
-        table.insert("sweep".into(), sweep.into());
-        table.insert("texture".into(), Table::from_iter([(texture, Value::Table(map))]).into());
+        let mut draft = Draft::of_texture(&texture, map, Path::new("lab.toml"));
+        draft.table.insert("title".into(), format!("{stem} in the lab").into());
         let name = file.file_name().unwrap_or_default().to_string_lossy();
-        Self::of_experiment(&name, &table.to_string(), Path::new("lab.toml"))
+        Self::of_draft(&name, draft)
     }
 
     /// Takes everything there are several of down to the first, and adds every method.
@@ -128,27 +94,27 @@ impl Setup {
         let sweep = &spec.sweep;
         let lobe = sweep.lobes[0];
         let width = if lobe.name() == "blinn-phong" { "exponent" } else { "alpha" };
-        let material = self.section("material");
+        let material = self.draft.section("material");
         ["exponent", "alpha"].iter().for_each(|key| drop(material.remove(*key)));
         material.insert("lobe".into(), lobe.name().into());
         material.insert(width.into(), lobe.parameter().into());
-        self.set("camera", "elevation", sweep.elevations[0]);
+        self.draft.set("camera", "elevation", sweep.elevations[0]);
         let texels = match &sweep.scale {
             Scale::TexelsPerPixel(list) => list[0],
             Scale::Distance { .. } => TEXELS,
         };
-        self.section("surface").remove("tiles");
+        self.draft.section("surface").remove("tiles");
         let image = [("width", spec.image.width), ("height", spec.image.height)];
         if image[0].1 < SIZE[0] as usize {
-            image.iter().zip(SIZE).for_each(|((key, _), side)| self.set("image", key, side));
+            image.iter().zip(SIZE).for_each(|((key, _), side)| self.draft.set("image", key, side));
         }
-        let methods = methods(spec, &self.table);
+        let methods = methods(spec, &self.draft.table);
         let mut single = Table::new();
         single.insert("texture".into(), list([sweep.textures[0].name.as_str()]));
         single.insert("method".into(), list(methods.iter().map(String::as_str)));
         single.insert("texels_per_pixel".into(), list([texels]));
-        self.table.insert("sweep".into(), single.into());
-        let reference = self.section("reference");
+        self.draft.table.insert("sweep".into(), single.into());
+        let reference = self.draft.section("reference");
         if reference.get("spp").and_then(Value::as_integer).unwrap_or(0) < REFERENCE {
             reference.insert("spp".into(), REFERENCE.into());
         }
@@ -159,7 +125,7 @@ impl Setup {
     /// # Errors
     /// What is wrong with it, a sentence.
     pub fn spec(&self) -> Result<Spec, String> {
-        let mut spec = Spec::parse(&self.table.to_string(), &self.path).map_err(|e| first(&e))?;
+        let mut spec = self.draft.read().map_err(|e| first(&e))?;
         for method in &mut spec.sweep.methods {
             if method.build().lookups().contains(&self.lookup) {
                 method.lookup = self.lookup;
@@ -176,48 +142,26 @@ impl Setup {
             if method.lookup == Lookup::default() {
                 continue;
             }
-            let table = setup.section("method").entry(&method.label).or_insert_with(|| {
+            let table = setup.draft.section("method").entry(&method.label).or_insert_with(|| {
                 Value::Table(Table::from_iter([("use".to_owned(), method.name.into())]))
             });
             if let Value::Table(table) = table {
                 table.insert("lookup".into(), method.lookup.name().into());
             }
         }
-        setup.table.to_string()
+        setup.draft.table.to_string()
     }
 
     /// The name of its texture.
     pub fn texture(&self) -> &str {
-        let list = self.table.get("sweep").and_then(|sweep| sweep.get("texture"));
+        let list = self.draft.table.get("sweep").and_then(|sweep| sweep.get("texture"));
         list.and_then(|list| list.get(0)).and_then(Value::as_str).unwrap_or("")
     }
 
     /// The table of its texture, if that is no plain pattern.
     pub(super) fn texture_table(&mut self) -> Option<&mut Table> {
         let name = self.texture().to_owned();
-        self.table.get_mut("texture")?.get_mut(&name)?.as_table_mut()
-    }
-
-    pub(super) fn section(&mut self, name: &str) -> &mut Table {
-        let section = self.table.entry(name).or_insert_with(|| Table::new().into());
-        if !section.is_table() {
-            *section = Table::new().into();
-        }
-        section.as_table_mut().expect("just made one")
-    }
-
-    pub(super) fn set(&mut self, section: &str, key: &str, value: impl Into<Value>) {
-        self.section(section).insert(key.into(), value.into());
-    }
-}
-
-/// Lays what a part says over what is common to all, table by table.
-fn lay_over(common: &mut Table, own: Table) {
-    for (key, value) in own {
-        match (common.get_mut(&key), value) {
-            (Some(Value::Table(below)), Value::Table(above)) => lay_over(below, above),
-            (_, value) => drop(common.insert(key, value)),
-        }
+        self.draft.table.get_mut("texture")?.get_mut(&name)?.as_table_mut()
     }
 }
 
@@ -292,7 +236,7 @@ pub(super) mod tests {
     "#;
 
     pub fn setup() -> Setup {
-        Setup::of_experiment("two", SWEEP, Path::new("two.toml")).unwrap()
+        Setup::of_draft("two", Draft::of_text(SWEEP, None, Path::new("two.toml")).unwrap()).unwrap()
     }
 
     #[test]
@@ -366,7 +310,8 @@ pub(super) mod tests {
                 }
             };
             for part in parts {
-                let setup = Setup::of_part("x", &text, part.as_deref(), &path);
+                let draft = Draft::of_text(&text, part.as_deref(), &path).unwrap();
+                let setup = Setup::of_draft("x", draft);
                 assert!(setup.is_ok(), "{} {part:?}: {setup:?}", path.display());
             }
         }

@@ -89,6 +89,8 @@ fn change(action: Action, lab: &Lab) -> Option<(Setting, i32)> {
         Action::LightDown => (Setting::LightElevation, -1),
         Action::LightLeft => (Setting::LightAzimuth, 1),
         Action::LightRight => (Setting::LightAzimuth, -1),
+        Action::CameraLeft => (Setting::CameraAzimuth, -1),
+        Action::CameraRight => (Setting::CameraAzimuth, 1),
         // A wider Blinn-Phong lobe has a smaller exponent.
         Action::Wider => (Setting::Width, wider(lab)),
         Action::Narrower => (Setting::Width, -wider(lab)),

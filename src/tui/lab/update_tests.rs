@@ -82,6 +82,7 @@ fn a_key_for_each_setting_changes_that_setting() {
         ('d', Setting::Texels),
         ('i', Setting::LightElevation),
         ('a', Setting::LightAzimuth),
+        ('y', Setting::CameraAzimuth),
         ('w', Setting::Width),
         ('p', Setting::Lookup),
     ] {

@@ -221,19 +221,12 @@ fn open(name: &str) -> Result<Setup, String> {
         return Setup::of_map(path);
     }
     let failed = |error: job::FindError| error.to_string();
-    let spec = match job::load(name) {
-        Ok(Experiment::Sweep(spec)) => *spec,
-        Ok(Experiment::Paper(paper)) => {
-            let first = paper.parts.first().map(|part| part.name.clone());
-            let part = first.ok_or_else(|| format!("experiment `{name}` has no scenes"))?;
-            return open(&format!("{name}/{part}"));
-        }
-        Err(error) => job::load_sweep(name).map_err(|_| failed(error))?,
-    };
-    let whole = name.strip_suffix(&format!("/{}", spec.name)).unwrap_or(name);
-    let path = job::locate(name).or_else(|_| job::locate(whole)).map_err(failed)?;
-    let part = (whole != name).then_some(spec.name.as_str());
-    Setup::of_part(name, &spec.text, part, &path)
+    if let Ok(Experiment::Paper(paper)) = job::load(name) {
+        let first = paper.parts.first().map(|part| part.name.clone());
+        let part = first.ok_or_else(|| format!("experiment `{name}` has no scenes"))?;
+        return open(&format!("{name}/{part}"));
+    }
+    Setup::of_draft(name, job::draft(name).map_err(failed)?)
 }
 
 /// Writes an experiment under the first free name.
@@ -259,10 +252,10 @@ mod tests {
 
     fn wanted(scene: u64, texels: f64) -> Wanted {
         let mut setup = super::super::setup::tests::setup();
-        setup.set("image", "width", 32);
-        setup.set("image", "height", 24);
+        setup.draft.set("image", "width", 32);
+        setup.draft.set("image", "height", 24);
         let list = toml::Value::Array(vec![texels.into()]);
-        setup.set("sweep", "texels_per_pixel", list);
+        setup.draft.set("sweep", "texels_per_pixel", list);
         Wanted { scene, spec: setup.spec().unwrap(), spp: 1, first: vec![0] }
     }
 
