@@ -81,9 +81,15 @@ class Player {
     this.asked = this.playing && scene.awake && scene.films ? requestAnimationFrame((now) => this.advance(now)) : 0;
   }
 
+  /** Whether some of the scene is seen: what nobody sees does not move on. */
+  get inView() {
+    const { top, bottom } = this.scene.section.getBoundingClientRect();
+    return bottom > 0 && top < innerHeight;
+  }
+
   /** No frame is left out: where the page cannot keep up, time passes more slowly. */
   advance(now) {
-    if (now >= this.due && this.playing) {
+    if (now >= this.due && this.playing && this.inView) {
       this.due = Math.max(this.due + this.period, now);
       const next = rounds[this.round].next(this.scene.state.frame, this.round === "turn" ? this.way : 1, this.last);
       if (next) {
