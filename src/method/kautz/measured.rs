@@ -33,7 +33,7 @@ const CARD: Card = Card {
     formula: "p(h) in the frame of n(r̄₁, r̄₂), r₁ = G⁻¹(M(n_x)), r₂ = G⁻¹(C(n_y|n_x)), p the NDF of the map's normals \
               and the base lobe",
     limits: "takes bumps to go on below the texels: close up each normal is as rough as all of the map; a region unlike \
-             the rest gets the rest's roughness",
+             the rest gets the rest's roughness; x comes before y, so a map and the same map turned are not quite alike",
     normalised: true,
     keeps_roughness: true,
     fractal: true,
