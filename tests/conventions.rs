@@ -354,7 +354,7 @@ fn levels_and_tilings_follow_the_footprint() {
 
 #[test]
 fn a_spec_tiles_to_the_texels_it_asks_for() {
-    use wrinkle::experiment::preview::{Wish, render_one};
+    use wrinkle::experiment::preview::{Wish, render_frames};
     use wrinkle::experiment::spec::Spec;
     let folder = tempfile::tempdir().unwrap();
     write_png(&folder.path().join("map.png"));
@@ -363,9 +363,10 @@ fn a_spec_tiles_to_the_texels_it_asks_for() {
         [texture.mine]\nfile = \"map.png\"\nkind = \"normal\"\n";
     let spec = Spec::parse(spec, &folder.path().join("spec.toml")).unwrap();
     let wish = Wish { texture: None, texels_per_pixel: Some(0.4), spp: 1, frame: 0 };
-    let film =
-        render_one(&spec, build("unfiltered").unwrap().as_ref(), &wish, &wrinkle::method::Silent)
-            .unwrap();
+    let method = build("unfiltered").unwrap();
+    let silent = &wrinkle::method::Silent;
+    let frames = render_frames(&spec, method.as_ref(), &wish, 1, silent, &|_| ()).unwrap();
+    let film = &frames.films[0];
     // The defaults of docs/experiments.md.
     let scene = Brute {
         elevation: 40.0,

@@ -99,6 +99,17 @@ impl Spinner {
         bar.set_message("rendering");
         Self { bar, method: method.to_owned() }
     }
+
+    /// So many frames of all are rendered.
+    pub fn rendered(&self, frames: u32, all: u32) {
+        if self.bar.length() != Some(all.into()) {
+            let style = ProgressStyle::with_template("{spinner} frame {pos} of {len}, {eta} left");
+            self.bar.set_style(style.expect("a constant template"));
+            self.bar.set_length(all.into());
+            self.bar.reset_eta();
+        }
+        self.bar.set_position(frames.into());
+    }
 }
 
 impl Progress for Spinner {

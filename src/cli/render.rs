@@ -4,11 +4,11 @@
 use std::io::Write;
 
 use super::args::RenderArgs;
-use super::exit::Failure;
+use super::exit::{Failure, tell};
 use super::progress::Spinner;
 use super::surface::{self, Wanted};
 use super::{Exit, draft, output};
-use crate::experiment::preview::{self, Wish};
+use crate::experiment::preview::{self, Frames, Wish};
 use crate::experiment::spec::{ImageSpec, no_such};
 use crate::render::{Film, Portrait};
 use crate::{file, method, report};
@@ -82,24 +82,28 @@ fn of_bumps(args: &RenderArgs, png: bool) -> Result<(), Failure> {
         spp: args.spp.unwrap_or(1),
         frame: 0,
     };
-    let spinner = Spinner::new(&args.method);
     let motion = spec.motion.filter(|_| args.animate.is_some());
-    let Some(motion) = motion else {
-        let film = preview::render_one(&spec, method.as_ref(), &wish, &spinner);
-        return write_image(args, png, &film.map_err(Failure::wrong)?);
-    };
-    if !png {
+    if motion.is_some() && !png {
         return Err(Failure::wrong("an EXR file holds one image: --animate writes PNG"));
     }
+    let count = motion.map_or(1, |motion| motion.frames);
     let ImageSpec { width, height } = spec.image;
-    if width * height * motion.frames as usize > MOST {
+    if width * height * count as usize > MOST {
         let message = format!(
-            "{} frames of {width}x{height} are more than the {MOST} pixels an animation may have: lower --size or \
-             --set motion.frames",
-            motion.frames
+            "{count} frames of {width}x{height} are more than the {MOST} pixels an animation may have: lower --size or \
+             --set motion.frames"
         );
         return Err(Failure::wrong(message));
     }
-    let films = preview::render_frames(&spec, method.as_ref(), &wish, motion.frames, &spinner);
-    write_animation(args, &films.map_err(Failure::wrong)?, motion.fps)
+    let spinner = Spinner::new(&args.method);
+    let rendered = |frames| spinner.rendered(frames, count);
+    let frames = preview::render_frames(&spec, method.as_ref(), &wish, count, &spinner, &rendered);
+    drop(spinner);
+    let Frames { films, notes } = frames.map_err(Failure::wrong)?;
+    notes.iter().for_each(|note| tell(format_args!("note: {note}")));
+    match (motion, films.as_slice()) {
+        (Some(motion), films) => write_animation(args, films, motion.fps),
+        (None, [film, ..]) => write_image(args, png, film),
+        (None, []) => Err(Failure::failed("there is no frame")),
+    }
 }

@@ -108,7 +108,7 @@ impl Claim {
         bound: f64,
         here: f64,
     ) -> Self {
-        let rule = format!("at most {bound}");
+        let rule = format!("at most {}", written(bound));
         Self::new(what, (paper.into(), here.into()), here <= bound, rule)
     }
 
@@ -145,6 +145,21 @@ impl Claim {
     }
 }
 
+/// A bound in all its digits; a small one with a power of ten, as `10⁻¹²` or `5×10⁻⁷`.
+fn written(bound: f64) -> String {
+    let text = format!("{bound:e}");
+    match text.split_once("e-") {
+        Some((digits, exponent)) if bound.abs() < 1e-4 => {
+            let digits = if digits == "1" { String::new() } else { format!("{digits}×") };
+            let raised = |c: char| c.to_digit(10).map_or('⁻', |d| SUPERSCRIPT[d as usize]);
+            format!("{digits}10⁻{}", exponent.chars().map(raised).collect::<String>())
+        }
+        _ => bound.to_string(),
+    }
+}
+
+const SUPERSCRIPT: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,6 +174,17 @@ mod tests {
         assert_eq!(Claim::at_most("rms", "a few percent", 0.05, 0.06).verdict, Verdict::Differs);
         let photograph = Claim::not_applicable("Figure 1", "a photograph", "a photograph");
         assert_eq!(photograph.verdict, Verdict::NotApplicable);
+    }
+
+    #[test]
+    fn bounds_are_written_as_numbers_are() {
+        let rule = |bound: f64| Claim::at_most("x", "y", bound, 0.0).rule;
+        assert_eq!(rule(0.05), "at most 0.05");
+        assert_eq!(rule(80.0), "at most 80");
+        assert_eq!(rule(0.0), "at most 0");
+        assert_eq!(rule(1e-12), "at most 10⁻¹²");
+        assert_eq!(rule(2.5e-7), "at most 2.5×10⁻⁷");
+        assert_eq!(rule(f64::NAN), "at most NaN");
     }
 
     #[test]

@@ -123,33 +123,28 @@ fn one_of(spec: &Spec, wish: &Wish<'_>) -> Result<Spec, NoImage> {
     Ok(one)
 }
 
-/// Renders one image of an experiment through a method: the scene of [`stage_one`]. `progress` hears of
-/// the prefilter.
+/// Frames that follow one another.
+#[derive(Debug)]
+pub struct Frames {
+    /// One a frame.
+    pub films: Vec<Film>,
+    /// What is worth knowing about the texture, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Renders `count` frames of an experiment from the one wished for on, through one prefiltered map: the scenes of
+/// [`stage_one`]. `progress` hears of the prefilter, `rendered` how many frames there are.
 ///
 /// # Errors
 /// Those of [`stage_one`], or if the method refuses the base lobe.
-pub fn render_one(
-    spec: &Spec,
-    method: &dyn Method,
-    wish: &Wish<'_>,
-    progress: &dyn Progress,
-) -> Result<Film, NoImage> {
-    let mut films = render_frames(spec, method, wish, 1, progress)?;
-    films.pop().ok_or_else(|| NoImage("there is no frame".into()))
-}
-
-/// Renders `count` frames from the one wished for on, through one prefiltered map. `progress` hears of the prefilter,
-/// then of the frames.
-///
-/// # Errors
-/// Those of [`render_one`].
 pub fn render_frames(
     spec: &Spec,
     method: &dyn Method,
     wish: &Wish<'_>,
     count: u32,
     progress: &dyn Progress,
-) -> Result<Vec<Film>, NoImage> {
+    rendered: &dyn Fn(u32),
+) -> Result<Frames, NoImage> {
     let mut stock = Stock::default();
     let staged = stock.stage_one(spec, wish)?;
     let prefiltered = method
@@ -157,14 +152,14 @@ pub fn render_frames(
         .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;
     let sampler = PixelSampler::new(wish.spp);
     let mut films = Vec::new();
-    for frame in wish.frame..wish.frame.saturating_add(count) {
+    for (frame, number) in (wish.frame..wish.frame.saturating_add(count)).zip(1..) {
         let staged = stock.stage_one(spec, &Wish { frame, ..*wish })?;
         let filtered =
             Filtered { map: &staged.map, card: method.card(), prefiltered: prefiltered.as_ref() };
         let film = render::trial(&staged.view, &filtered, &sampler, spec.seed, 0, &|| false)
             .map_err(|error| NoImage(error.to_string()))?;
         films.push(film);
-        progress.advance(films.len(), count as usize);
+        rendered(number);
     }
-    Ok(films)
+    Ok(Frames { films, notes: stock.notes().to_vec() })
 }

@@ -4,7 +4,7 @@ use super::{colour, viewer};
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment};
 
-const TEMPLATES: [(&str, &str); 32] = [
+const TEMPLATES: [(&str, &str); 33] = [
     ("table.md", include_str!("templates/table.md")),
     ("parts.html", include_str!("templates/parts.html")),
     ("base.html", include_str!("templates/base.html")),
@@ -26,6 +26,7 @@ const TEMPLATES: [(&str, &str); 32] = [
     ("script/maps.js", include_str!("templates/script/maps.js")),
     ("script/draw.js", include_str!("templates/script/draw.js")),
     ("script/pointer.js", include_str!("templates/script/pointer.js")),
+    ("script/player.js", include_str!("templates/script/player.js")),
     ("script/bench.js", include_str!("templates/script/bench.js")),
     ("script/scene.js", include_str!("templates/script/scene.js")),
     ("script/keys.js", include_str!("templates/script/keys.js")),

@@ -1,10 +1,13 @@
 //! The report page in a real browser: keys flip, zoom and pan are one for all images, values are those of the films,
 //! improvement has its sign, nothing is fetched. Skipped with a notice where there is no browser, unless
 //! `WRINKLE_BROWSER=required`.
+//! Frames are tested in `motion.rs`, figures of papers in `paper.rs`.
 #![cfg(unix)]
 #![allow(clippy::disallowed_methods, reason = "tests compare numbers within tolerances")]
 
 mod chromium;
+mod motion;
+mod paper;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -61,34 +64,46 @@ fn films(scene: &SceneResult) -> Vec<(String, &[f32])> {
     std::iter::once(reference).chain(compared).chain(more).collect()
 }
 
-/// A report that all tests look at, and where it stands.
-fn reported() -> (&'static Path, &'static Results) {
-    static REPORT: OnceLock<(PathBuf, Results)> = OnceLock::new();
-    let (folder, results) = REPORT.get_or_init(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser");
-        let spec = Spec::parse(SPEC, Path::new("tiny.toml")).unwrap();
+/// A report and where it stands.
+type Report = (PathBuf, Results);
+
+/// A report that tests look at, made once.
+fn reported(name: &str, spec: &str, made: &'static OnceLock<Report>) -> &'static Report {
+    made.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let spec = Spec::parse(spec, Path::new("tiny.toml")).unwrap();
         let halt = Halt(Arc::new(AtomicBool::new(false)));
         let outcome = runner::run(&spec, &folder, &halt, &runner::unwatched()).unwrap();
         let Outcome::Finished(found) = outcome else { panic!("nobody halted the run") };
         report::write(&found.0, &found.1, &folder).unwrap();
         (folder, found.0)
-    });
-    (folder, results)
+    })
 }
 
-/// The page in a browser with what it shows; `None`, with a notice, where there is no browser.
-fn opened() -> Option<(Browser, &'static Path, &'static Results)> {
+/// A browser; `None`, with a notice, where there is none.
+fn browser() -> Option<Browser> {
     let Some(program) = chromium::find() else {
         let required = std::env::var("WRINKLE_BROWSER").is_ok_and(|value| value == "required");
         assert!(!required, "no Chromium on the path; CHROME may name one");
         eprintln!("NOTICE: skipped, for there is no Chromium on the path; CHROME may name one");
         return None;
     };
-    let (folder, results) = reported();
-    let mut browser = Browser::start(&program);
-    browser.open(&folder.join("report.html"));
+    Some(Browser::start(&program))
+}
+
+/// Brings the stage of the first scene into view.
+fn scroll_to_stage(browser: &mut Browser) {
     browser.eval("document.querySelector('.scene .stage').scrollIntoView({ block: 'center', behavior: 'instant' })");
     browser.paint();
+}
+
+/// The page in a browser with what it shows.
+fn opened() -> Option<(Browser, &'static Path, &'static Results)> {
+    static REPORT: OnceLock<Report> = OnceLock::new();
+    let mut browser = browser()?;
+    let (folder, results) = reported("browser", SPEC, &REPORT);
+    browser.open(&folder.join("report.html"));
+    scroll_to_stage(&mut browser);
     Some((browser, folder, results))
 }
 

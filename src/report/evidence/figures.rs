@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::{fields, file_name, images, net, plot, sketch};
 use crate::evidence::{Drawing, Evidence, Figure, Images};
 use crate::report::figure::{self, FrameImages};
+use crate::report::viewer::Viewer;
 use crate::report::words::DISTRIBUTIONS_ALONE;
 use crate::report::{disc, polar, sheet};
 
@@ -16,7 +17,9 @@ pub struct Drawn {
     figure: figure::Figure,
     /// How to read it; empty if that has been said of an earlier figure of the row.
     reading: String,
-    /// The images one by one, for flipping; none for other drawings.
+    /// The viewer of the images; none for other drawings, and where the page has no room for it.
+    viewer: Option<Viewer>,
+    /// The images one by one, for flipping, where there is no viewer; none for other drawings.
     frames: Vec<FrameImages>,
     /// How wide the largest image is shown, CSS pixels, and how many stand in a row.
     wide: usize,
@@ -39,7 +42,10 @@ impl Drawn {
     }
 }
 
-/// Every figure drawn: row by row, figure by figure.
+/// Bytes of films that a page holds, as text.
+const ROOM: usize = 14 << 20;
+
+/// Every figure drawn: row by row, figure by figure. The page holds the films of the first ones, as far as it has room.
 pub fn of(evidence: &Evidence) -> Vec<Vec<Drawn>> {
     let all: Vec<(&str, &Figure)> = evidence
         .exhibits
@@ -47,10 +53,22 @@ pub fn of(evidence: &Evidence) -> Vec<Vec<Drawn>> {
         .flat_map(|exhibit| exhibit.figures.iter().map(|figure| (exhibit.row.as_str(), figure)))
         .collect();
     // One by one in parallel, kept in order.
-    let drawn: Vec<Drawn> = all.par_iter().map(|(row, figure)| draw(row, figure)).collect();
+    let mut drawn: Vec<Drawn> = all.par_iter().map(|(row, figure)| draw(row, figure)).collect();
+    make_room(&mut drawn, ROOM);
     let mut drawn = drawn.into_iter();
     let of_row = |figures: &Vec<Figure>| said_once(drawn.by_ref().take(figures.len()).collect());
     evidence.exhibits.iter().map(|exhibit| &exhibit.figures).map(of_row).collect()
+}
+
+/// Keeps viewers as far as `room`, in bytes, lasts, and in their place pictures.
+fn make_room(figures: &mut [Drawn], mut room: usize) {
+    for figure in figures {
+        let Some(viewer) = &figure.viewer else { continue };
+        match room.checked_sub(viewer.size(viewer.len())) {
+            Some(left) => (room, figure.frames) = (left, Vec::new()),
+            None => figure.viewer = None,
+        }
+    }
 }
 
 /// Leaves out of each figure what an earlier one says of reading it.
@@ -80,6 +98,7 @@ fn draw(row: &str, figure: &Figure) -> Drawn {
     Drawn {
         figure: figure::Figure::drawing(file, caption, &canvas),
         reading: reading.into(),
+        viewer: None,
         frames: Vec::new(),
         wide: 0,
         across: 1,
@@ -100,9 +119,36 @@ fn draw_images(row: &str, panels: &Images, file: String, caption: String) -> Dra
     Drawn {
         reading: images::remark(panels, &frames),
         figure: figure::Figure::sheet(file, caption, &sheet::sheet(&frames)),
+        viewer: images::viewer(panels, &frames),
         frames: frames.frames.iter().map(FrameImages::of).collect(),
         wide: sheet::size(&frames)[0] as usize,
         across: frames.across.min(frames.frames.len()).max(1),
         films: panels.panels.iter().filter_map(film).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::evidence::fixture;
+
+    #[test]
+    fn figures_have_a_viewer_while_there_is_room_and_pictures_then() {
+        let evidence = fixture::evidence();
+        let exhibit = evidence.exhibits.iter().find(|e| e.row == "fournier-f9").unwrap();
+        let drawn = || exhibit.figures.iter().map(|f| draw("x", f)).collect::<Vec<_>>();
+        let sizes: Vec<usize> =
+            drawn().iter().filter_map(|d| d.viewer.as_ref()).map(|v| v.size(v.len())).collect();
+        assert_eq!(sizes.len(), 2);
+        for (room, kept) in
+            [(usize::MAX, [true, true]), (sizes[0], [true, false]), (0, [false, false])]
+        {
+            let mut figures = drawn();
+            make_room(&mut figures, room);
+            for (figure, kept) in figures.iter().zip(kept) {
+                assert_eq!(figure.viewer.is_some(), kept);
+                assert_eq!(figure.frames.len(), if kept { 0 } else { 3 });
+            }
+        }
     }
 }

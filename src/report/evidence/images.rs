@@ -8,6 +8,7 @@ use crate::report::contest::median;
 use crate::report::phrase;
 use crate::report::sheet::{Frame, Frames};
 use crate::report::tone;
+use crate::report::viewer::{self, Image, Viewer};
 
 /// The images on one exposure, errors on one scale.
 pub fn frames(images: &Images) -> Frames {
@@ -38,6 +39,23 @@ pub fn frames(images: &Images) -> Frames {
     }
 }
 
+/// The viewer of these images; `None` if some panel has none, or one of another size.
+pub fn viewer(images: &Images, frames: &Frames) -> Option<Viewer> {
+    let image = |panel| film(panel).map(|film| image_of(panel, film));
+    let panels: Option<Vec<Image>> = images.panels.iter().map(image).collect();
+    let reference = images.reference.filter(|i| *i < images.panels.len());
+    Viewer::of(&viewer::Images {
+        images: panels?,
+        reference,
+        against: usize::from(reference == Some(0) && images.panels.len() > 1),
+        // Figures of papers are small, and shown as they were printed: without magnified parts.
+        telling: Vec::new(),
+        white: frames.white,
+        full: frames.full,
+        motion: None,
+    })
+}
+
 /// What the exposure and the colours mean, a sentence or two.
 pub fn remark(images: &Images, frames: &Frames) -> String {
     let white = format!("White is radiance {}.", phrase::scale(frames.white));
@@ -53,6 +71,16 @@ pub fn remark(images: &Images, frames: &Frames) -> String {
 
 fn reference_label(images: &Images) -> Option<&str> {
     images.reference.and_then(|i| images.panels.get(i)).map(|panel| panel.label.as_str())
+}
+
+fn image_of<'a>(panel: &Panel, film: &'a Film) -> Image<'a> {
+    Image {
+        label: panel.label.clone(),
+        remark: panel.remark.clone(),
+        lines: String::new(),
+        films: vec![film],
+        prints: Vec::new(),
+    }
 }
 
 /// A panel's film, if it has one with pixels.

@@ -1,25 +1,25 @@
-//! The pictures of a sequence: animations side by side, frames as files, flicker maps.
+//! The pictures of a sequence: its viewer or animations side by side, frames as files, flicker maps, charts over time.
 
 use serde::Serialize;
 
-use super::animation::Codes;
 use super::answer::moves;
+use super::clip::{Clip, Scales, Shown};
 use super::standing::Race;
-use super::{curves, tables};
-use crate::experiment::results::{Picture, Results};
+use super::{curves, films as packed, tables};
+use crate::experiment::results::Results;
 use crate::experiment::sequence::{films, references};
 use crate::metric::flicker_map;
-use crate::render::{Film, percentile};
+use crate::render::percentile;
 use crate::report::bar;
 use crate::report::canvas::Canvas;
 use crate::report::colour::magnitude;
 use crate::report::contest::setting_name;
-use crate::report::figure::{Figure, data_uri};
+use crate::report::figure::Figure;
 use crate::report::phrase::{count, number, percent};
-use crate::report::png;
 use crate::report::scale::texels;
 use crate::report::sheet::{self, Frame, Frames};
 use crate::report::tables::Table;
+use crate::report::viewer::Viewer;
 
 /// Animations to an image's row of the Markdown report and the sheet of maps.
 const ACROSS: usize = 4;
@@ -30,6 +30,10 @@ pub struct Reel {
     heading: String,
     setting: String,
     remark: String,
+    /// The viewer of its films, if the page has room for them.
+    viewer: Option<Viewer>,
+    /// What it leaves out of the frames; empty if nothing.
+    missing: String,
     /// Folder of its frames, and the slug its frames' EXR folders begin with.
     slug: String,
     /// The reference, then every method.
@@ -41,50 +45,19 @@ pub struct Reel {
     maps: Figure,
 }
 
-/// An image in motion.
-#[derive(Serialize)]
-struct Clip {
-    label: String,
-    remark: String,
-    /// The animation's file, relative to the report.
-    file: String,
-    /// The animation as the page holds it; None if the page has no room for it and shows the file.
-    uri: Option<String>,
-    /// The first frame, for those who want no motion.
-    still: String,
-    /// Its flicker map.
-    map: String,
-    #[serde(skip)]
-    animation: Vec<u8>,
-    #[serde(skip)]
-    frames: Vec<Vec<u8>>,
-}
-
 impl Reel {
-    /// The pictures of a sequence at `spp` samples a pixel. Its animations go into the page as far as `room`, in
-    /// bytes, lasts.
-    pub fn of(results: &Results, race: &Race, spp: u32, room: &mut usize) -> Self {
+    /// The pictures of a sequence at `spp` samples a pixel. Its films go into the page if `room`, in bytes, holds them;
+    /// else its animations do as far as it lasts.
+    pub fn of(results: &Results, race: &Race, spp: u32, mut room: usize) -> Self {
         let slug = &race.sequence.slug;
-        let truth = references(race.frames);
-        let all = || truth.iter().flat_map(|film| film.pixels()).copied();
-        let white = Some(percentile(all())).filter(|white| *white > 0.0).unwrap_or(1.0);
-        let map = flicker_map(&truth).unwrap_or_else(|| truth[0].clone());
-        let full = Some(percentile(map.pixels().iter().copied())).filter(|full| *full > 0.0);
-        let full = full.unwrap_or(white);
-        let fps = results.motion.map_or(12, |motion| motion.fps);
-
-        let mut shown: Vec<Shown> = vec![Shown {
-            label: "reference",
-            remark: format!("{} samples", race.frames[0].reference.spp),
-            films: truth,
-        }];
-        shown.extend(race.standings.iter().filter_map(|standing| {
-            let label = standing.method.label.as_str();
-            let wrong = |wrong| format!("wrong change {}", percent(wrong));
-            let remark = standing.wrong.map_or_else(String::new, wrong);
-            Some(Shown { label, remark, films: films(race.frames, label, spp)? })
-        }));
-        let clips: Vec<Clip> = shown.iter().map(|s| s.clip(slug, white, full, fps, room)).collect();
+        let shown = shown(race, spp);
+        let scales = scales(results, &shown[0]);
+        let mut clips: Vec<Clip> = shown.iter().map(|s| Clip::of(s, slug, scales)).collect();
+        let found = packed::viewer(&shown, &clips, scales, room);
+        if found.is_none() {
+            clips.iter_mut().for_each(|clip| clip.embed(&mut room));
+        }
+        let missing = missing(found.as_ref().map(|(_, step)| *step));
         let order: Vec<usize> = (0..clips.len()).collect();
         Self {
             heading: heading(race),
@@ -93,15 +66,17 @@ impl Reel {
                 "{} {} at {} a second, {} a pixel. White is radiance {}.",
                 results.motion.as_ref().map_or_else(String::new, moves),
                 count(race.frames.len(), "frame"),
-                fps,
+                scales.fps,
                 count(spp as usize, "sample"),
-                number(white),
+                number(scales.white),
             ),
             plots: plots(results, race),
             table: tables::flicker(race),
-            maps: maps(&shown, slug, full),
+            maps: maps(&shown, slug, scales.flicker),
             rows: order.chunks(ACROSS).map(<[usize]>::to_vec).collect(),
             slug: slug.clone(),
+            viewer: found.map(|(viewer, _)| viewer),
+            missing,
             clips,
         }
     }
@@ -130,38 +105,43 @@ fn heading(race: &Race) -> String {
     format!("{}, from {from} to {}", first.texture, texels(last.texels_per_pixel))
 }
 
-/// A method's films, or the reference's.
-struct Shown<'a> {
-    label: &'a str,
-    remark: String,
-    films: Vec<&'a Film>,
+/// The reference, then every method of the race, in the order of the spec.
+fn shown<'a>(race: &Race<'a>, spp: u32) -> Vec<Shown<'a>> {
+    let reference = Shown {
+        label: "reference",
+        remark: format!("{} samples", race.frames[0].reference.spp),
+        method: None,
+        films: references(race.frames),
+    };
+    let methods = race.standings.iter().filter_map(|standing| {
+        let label = standing.method.label.as_str();
+        let wrong = |wrong| format!("wrong change {}", percent(wrong));
+        let remark = standing.wrong.map_or_else(String::new, wrong);
+        let films = films(race.frames, label, spp)?;
+        Some(Shown { label, remark, method: Some(standing.method), films })
+    });
+    std::iter::once(reference).chain(methods).collect()
 }
 
-impl Shown<'_> {
-    fn clip(&self, slug: &str, white: f64, full: f64, fps: u32, room: &mut usize) -> Clip {
-        let codes = Codes::of(&self.films, white);
-        let animation = codes.animated(fps);
-        let fits = animation.len() <= *room;
-        if fits {
-            *room -= animation.len();
-        }
-        Clip {
-            label: self.label.to_owned(),
-            remark: self.remark.clone(),
-            file: format!("animations/{slug}/{}.png", self.label),
-            uri: fits.then(|| data_uri(&animation)),
-            still: data_uri(&codes.still(0)),
-            map: data_uri(&png::exact(&self.map(full))),
-            animation,
-            frames: (0..self.films.len()).map(|frame| codes.still(frame)).collect(),
-        }
-    }
+fn scales(results: &Results, reference: &Shown) -> Scales {
+    let truth = &reference.films;
+    let all = truth.iter().flat_map(|film| film.pixels()).copied();
+    let white = Some(percentile(all)).filter(|white| *white > 0.0).unwrap_or(1.0);
+    let map = flicker_map(truth).unwrap_or_else(|| truth[0].clone());
+    let flicker = Some(percentile(map.pixels().iter().copied())).filter(|full| *full > 0.0);
+    let fps = results.motion.map_or(12, |motion| motion.fps);
+    Scales { white, flicker: flicker.unwrap_or(white), fps }
+}
 
-    /// Its flicker map in colour, `full` the change of the last colour.
-    fn map(&self, full: f64) -> Picture {
-        let map = flicker_map(&self.films).unwrap_or_else(|| self.films[0].clone());
-        let rgb = map.pixels().iter().map(|change| magnitude(f64::from(*change) / full));
-        Picture { width: map.width(), height: map.height(), rgb: rgb.collect() }
+/// What a viewer of every `step`-th frame leaves out, or that there is none; nothing to say if it has all.
+fn missing(step: Option<usize>) -> String {
+    match step {
+        Some(1) => String::new(),
+        Some(2) => "The page has room for every second frame; changes here are from each of these to the next.".into(),
+        Some(_) => "The page has room for every fourth frame; changes here are from each of these to the next.".into(),
+        None => "The page has no room for the films of this sequence; it shows animations, whose flicker maps stand \
+                 below. Click an image to flip through them in place; arrow and number keys choose, Escape shows all."
+            .into(),
     }
 }
 

@@ -1,5 +1,5 @@
-//! A scene's images as the page's viewer takes them: linear films that its script turns into pictures, error maps
-//! and values; and what to begin with.
+//! Images as the page's viewer takes them, of a scene that is still or moves: linear films that its script turns into
+//! pictures, error maps and values; and what to begin with.
 
 mod insets;
 pub mod pack;
@@ -23,16 +23,27 @@ pub struct Image<'a> {
     pub remark: String,
     /// The lines of `metrics.csv` that the remark follows from, as `12 40`.
     pub lines: String,
-    /// Its linear radiance.
-    pub film: &'a Film,
+    /// Its linear radiance, frame by frame; one film of what is still.
+    pub films: Vec<&'a Film>,
+    /// Pictures that stand in its place where no script runs, and in print.
+    pub prints: Vec<Print>,
+}
+
+/// A picture for where the viewer cannot be.
+#[derive(Clone, Serialize)]
+pub struct Print {
+    /// What it shows.
+    pub alt: String,
+    /// The picture, as a data URI.
+    pub uri: String,
 }
 
 /// Images on one exposure and one scale of error.
 pub struct Images<'a> {
-    /// The images; all films are of one size.
+    /// The images, with as many frames each; all films are of one size.
     pub images: Vec<Image<'a>>,
-    /// Which one the others are compared with.
-    pub reference: usize,
+    /// Which one the others are compared with, if any.
+    pub reference: Option<usize>,
     /// Which one improvements are measured against at first.
     pub against: usize,
     /// Which ones tell where insets lie.
@@ -41,6 +52,19 @@ pub struct Images<'a> {
     pub white: f64,
     /// Error shown in full colour.
     pub full: f64,
+    /// How they move, if they do.
+    pub motion: Option<Motion>,
+}
+
+/// How frames are shown.
+#[derive(Clone, Copy, Serialize)]
+pub struct Motion {
+    /// Frames a second.
+    pub fps: f64,
+    /// Change from a frame to the next shown in full colour, of radiance.
+    pub change: f64,
+    /// Mean change shown in full colour, of radiance.
+    pub flicker: f64,
 }
 
 /// A viewer, ready for the page.
@@ -59,8 +83,9 @@ struct Shown {
     label: String,
     remark: String,
     lines: String,
-    /// The packed film.
+    /// The packed films.
     film: String,
+    prints: Vec<Print>,
 }
 
 /// What the script has to know of a scene.
@@ -68,31 +93,39 @@ struct Shown {
 struct Settings {
     width: usize,
     height: usize,
+    frames: usize,
+    motion: Option<Motion>,
     /// What the packed radiances were multiplied by.
     scale: f32,
     white: f64,
     full: f64,
-    reference: usize,
+    reference: Option<usize>,
     against: usize,
     labels: Vec<String>,
     insets: Vec<Inset>,
 }
 
 impl Viewer {
-    /// A viewer of these images. `None` if there are none, or one is of another size than the first.
+    /// A viewer of these images. `None` if there are none, one is of another size than the first, or has more frames
+    /// or fewer.
     pub fn of(images: &Images) -> Option<Self> {
-        let films: Vec<&Film> = images.images.iter().map(|image| image.film).collect();
-        let first = films.first()?;
+        let clips: Vec<&[&Film]> = images.images.iter().map(|image| &image.films[..]).collect();
+        let first = *clips.first()?.first()?;
+        let frames = clips[0].len();
         let size = |film: &Film| (film.width(), film.height());
-        if films.iter().any(|film| size(film) != size(first)) || first.pixels().is_empty() {
+        let mut films = clips.iter().copied().flatten();
+        let alike = films.all(|film| size(film) == size(first));
+        if !alike || first.pixels().is_empty() || clips.iter().any(|clip| clip.len() != frames) {
             return None;
         }
-        let telling: Vec<&Film> =
-            images.telling.iter().filter_map(|i| films.get(*i)).copied().collect();
-        let scale = pack::scale(films.iter().copied());
+        let telling: Vec<&[&Film]> =
+            images.telling.iter().filter_map(|i| clips.get(*i)).copied().collect();
+        let scale = pack::scale(clips.iter().copied().flatten().copied());
         let settings = Settings {
             width: first.width(),
             height: first.height(),
+            frames,
+            motion: images.motion,
             scale,
             white: images.white,
             full: images.full,
@@ -105,7 +138,8 @@ impl Viewer {
             label: image.label.clone(),
             remark: image.remark.clone(),
             lines: image.lines.clone(),
-            film: pack::pack(image.film, scale),
+            film: pack::pack(&image.films, scale),
+            prints: image.prints.clone(),
         });
         Some(Self { settings, shown: shown.collect() })
     }
@@ -152,15 +186,17 @@ mod tests {
             label: "</script>".into(),
             remark: String::new(),
             lines: String::new(),
-            film,
+            films: vec![film],
+            prints: Vec::new(),
         };
         Images {
             images: films.iter().map(image).collect(),
-            reference: 0,
+            reference: Some(0),
             against: 1,
             telling: vec![0, 1],
             white: 1.0,
             full: 0.1,
+            motion: None,
         }
     }
 
@@ -180,5 +216,19 @@ mod tests {
         let films = [Film::new(2, 2, vec![0.0; 4]), Film::new(3, 2, vec![0.0; 6])];
         assert!(Viewer::of(&images(&films)).is_none());
         assert!(Viewer::of(&images(&[])).is_none());
+    }
+
+    #[test]
+    fn what_moves_has_its_frames_and_all_images_have_as_many() {
+        let films = [0.1, 0.2].map(|v| Film::new(8, 8, vec![v; 64]));
+        let mut images = images(&films);
+        images.motion = Some(Motion { fps: 12.0, change: 0.5, flicker: 0.25 });
+        images.images.iter_mut().for_each(|image| image.films.push(&films[0]));
+        let settings = json(&Viewer::of(&images).unwrap().settings);
+        let read: serde_json::Value = serde_json::from_str(&settings).unwrap();
+        assert_eq!(read["frames"], 2);
+        assert_eq!(read["motion"]["change"], 0.5);
+        images.images[1].films.pop();
+        assert!(Viewer::of(&images).is_none());
     }
 }

@@ -3,7 +3,8 @@
 //! A film's radiances are multiplied by a power of two that its scene's films share, which loses nothing and puts
 //! the largest of them where half floats are finest; rounded to half floats (IEEE 754 binary16, 11 significant
 //! bits); each taken from the one before it, as 16-bit numbers modulo 2¹⁶; all low bytes written before all high
-//! ones; and deflated (zlib, RFC 1950). `templates/script/films.js` goes the way back.
+//! ones; and deflated (zlib, RFC 1950). The frames of an image that moves follow one another as if they were one
+//! tall film. `templates/script/films.js` goes the way back.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -29,9 +30,9 @@ pub fn scale<'a>(films: impl Iterator<Item = &'a Film>) -> f32 {
     libm::ldexpf(1.0, (TOP - exponent).clamp(-126, 126))
 }
 
-/// A film as text.
-pub fn pack(film: &Film, scale: f32) -> String {
-    STANDARD.encode(deflate(&planes(film, scale)))
+/// An image as text: its frames, or its only film.
+pub fn pack(frames: &[&Film], scale: f32) -> String {
+    STANDARD.encode(deflate(&planes(frames, scale)))
 }
 
 /// Bytes as text, deflated.
@@ -44,9 +45,10 @@ fn deflate(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// The low bytes of all differences, then their high bytes.
-fn planes(film: &Film, scale: f32) -> Vec<u8> {
+fn planes(frames: &[&Film], scale: f32) -> Vec<u8> {
     let mut before = 0u16;
-    let halves = film.pixels().iter().map(|v| f16::from_f32(v * scale).to_bits());
+    let radiances = frames.iter().flat_map(|film| film.pixels());
+    let halves = radiances.map(|v| f16::from_f32(v * scale).to_bits());
     let steps: Vec<[u8; 2]> = halves
         .map(|bits| bits.wrapping_sub(std::mem::replace(&mut before, bits)).to_le_bytes())
         .collect();
@@ -87,7 +89,7 @@ mod tests {
             let film = film(pixels.iter().map(|v| v * size).collect());
             let scale = scale(std::iter::once(&film));
             let largest = film.pixels().iter().copied().fold(0.0, f32::max);
-            for (a, b) in film.pixels().iter().zip(unpack(&pack(&film, scale), scale)) {
+            for (a, b) in film.pixels().iter().zip(unpack(&pack(&[&film], scale), scale)) {
                 // 11 significant bits; below 2⁻²⁹ of the largest, half floats lose bits one by one.
                 let bound = (a * libm::ldexpf(1.0, -11)).max(largest * libm::ldexpf(1.0, -39));
                 prop_assert!((a - b).abs() <= bound, "{a} {b}");
@@ -103,9 +105,16 @@ mod tests {
         pixels.extend([f32::NAN, f32::INFINITY]);
         let film = film(pixels.clone());
         let scale = scale(std::iter::once(&film));
-        let back = unpack(&pack(&film, scale), scale);
+        let back = unpack(&pack(&[&film], scale), scale);
         assert_eq!(back[..5], halves);
         assert!(back[5].is_nan() && back[6] == f32::INFINITY);
+    }
+
+    #[test]
+    fn frames_follow_one_another() {
+        let frames = [film(vec![0.5, 1.0]), film(vec![2.0, 0.25])];
+        let text = pack(&[&frames[0], &frames[1]], 1.0);
+        assert_eq!(unpack(&text, 1.0), [0.5, 1.0, 2.0, 0.25]);
     }
 
     #[test]
@@ -114,6 +123,6 @@ mod tests {
         assert_eq!(scale(std::iter::once(&film(vec![0.0; 3]))), 1.0);
         let faint = film(vec![f32::from_bits(1)]);
         assert!(scale(std::iter::once(&faint)).is_finite());
-        assert!(unpack(&pack(&film(vec![]), 1.0), 1.0).is_empty());
+        assert!(unpack(&pack(&[&film(vec![])], 1.0), 1.0).is_empty());
     }
 }

@@ -32,7 +32,8 @@ pub fn viewer(
         label: "reference".into(),
         remark: frames.frames[0].remark.clone(),
         lines: String::new(),
-        film: &scene.reference.film,
+        films: vec![&scene.reference.film],
+        prints: Vec::new(),
     }];
     let curve = brute_force_curve(results, scene);
     let shown = compared.iter().zip(&frames.frames[1..]).map(|(trial, frame)| Image {
@@ -43,7 +44,8 @@ pub fn viewer(
             worth(&frame.remark, trial, &curve)
         },
         lines: String::new(),
-        film: &trial.film,
+        films: vec![&trial.film],
+        prints: Vec::new(),
     });
     images.extend(shown);
     let count = images.len();
@@ -51,7 +53,8 @@ pub fn viewer(
         label: format!("{}, {} spp", trial.method, trial.spp),
         remark: error(trial),
         lines: String::new(),
-        film: &trial.film,
+        films: vec![&trial.film],
+        prints: Vec::new(),
     }));
     for (image, line) in images[1..].iter_mut().zip(lines) {
         image.lines = line;
@@ -59,11 +62,12 @@ pub fn viewer(
     let normalised = |label: &str| results.methods.iter().any(|m| m.label == label && m.normalised);
     let telling = (0..count).filter(|i| *i == 0 || normalised(&images[*i].label)).collect();
     let viewer = Viewer::of(&Images {
-        reference: 0,
+        reference: Some(0),
         against: images.iter().position(|image| image.label == brute).unwrap_or(0),
         telling,
         white: frames.white,
         full: frames.full,
+        motion: None,
         images,
     });
     (viewer, count)

@@ -12,7 +12,8 @@ class Bench {
     const stage = make("div", { class: "stage" }, this.canvas, this.handle);
     const list = make("div", { class: "films", role: "group", "aria-label": "images" }, this.pixel, ...this.films);
     const key = make("div", { class: "key" }, this.key.bar, ...this.key.ends);
-    this.element = make("div", { class: "bench" }, this.tools(), make("div", {}, stage, key, this.caption), list);
+    const below = [scene.player?.element, key, this.caption].filter(Boolean);
+    this.element = make("div", { class: "bench" }, this.tools(), make("div", { class: "view" }, stage, ...below), list);
     scene.section.querySelector(".row").before(this.element);
     this.watchHandle();
   }
@@ -27,7 +28,7 @@ class Bench {
   tools() {
     const { scene } = this;
     const tool = (text, title, run) => make("button", { type: "button", text, title, onclick: run });
-    this.maps = Object.entries(maps).map(([name, { name: text }]) => [name, tool(text, "m: the next", () => scene.set({ map: name }))]);
+    this.maps = scene.maps.map((name) => [name, tool(maps[name].name, maps[name].says ?? "m: the next", () => scene.set({ map: name }))]);
     this.wipe = tool("wipe", "w: one image to the left of a line, the other to the right", () => toggleWipe(scene));
     this.other = make(
       "select",
@@ -87,6 +88,7 @@ class Bench {
     const says = this.says();
     if (this.caption.textContent !== says) this.caption.textContent = says;
     this.canvas.setAttribute("aria-label", says);
+    scene.player?.tell();
     this.tellColours();
     this.tellValues();
   }
@@ -96,7 +98,7 @@ class Bench {
     const { state } = scene;
     const one = scene.label(scene.shown);
     const other = scene.label(state.other);
-    const map = maps[state.map].name;
+    const map = maps[state.map].says ?? maps[state.map].name;
     if (state.map === "improvement") return `Who is nearer to the reference: ${one} (blue) or ${other} (orange)`;
     return state.wipe === null ? `${one}: ${map}` : `${one} | ${other}: ${map}`;
   }
@@ -114,12 +116,13 @@ class Bench {
     const { scene } = this;
     const { at } = scene.state;
     const [x, y] = at ? at.map(Math.floor) : [];
-    this.pixel.textContent = at ? `pixel (${x}, ${y}): radiance, error` : "point at a pixel for its values";
+    const compares = scene.maps.includes("signed");
+    this.pixel.textContent = at ? `pixel (${x}, ${y}): radiance${compares ? ", error" : ""}` : "point at a pixel for its values";
     this.films.forEach((button, i) => {
       const value = button.querySelector(".value");
       const there = at && scene.films;
       value.textContent = there ? figure(scene.valueAt("radiance", i, x, y)) : "";
-      const error = there && i !== scene.settings.reference ? figure(scene.valueAt("signed", i, x, y), 2) : "";
+      const error = there && compares && i !== scene.settings.reference ? figure(scene.valueAt("signed", i, x, y), 2) : "";
       value.append(make("small", { text: error }));
     });
   }

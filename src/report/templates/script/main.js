@@ -21,10 +21,11 @@ const near = new IntersectionObserver(
 scenes.forEach(({ section }) => near.observe(section));
 new ResizeObserver(() => scenes.filter(({ awake }) => awake).forEach((scene) => scene.redraw())).observe(document.body);
 
-// A print shows all of them: their films are at hand soon after the page is.
+// A print shows all of them: the films of what is still are at hand soon after the page is; what moves is printed as
+// pictures of its first frame, and its films are decoded only when it comes near.
 window.addEventListener("beforeprint", () => scenes.forEach((scene) => scene.draw()));
 const loadAll = async () => {
-  for (const scene of scenes) await scene.load();
+  for (const scene of scenes.filter(({ player }) => !player)) await scene.load();
   document.documentElement.dataset.films = "loaded";
 };
 loadAll();

@@ -33,7 +33,8 @@ const watchPointer = (scene, canvas, film) => {
   });
   canvas.addEventListener("pointerup", (event) => {
     if (drag?.marks && drag.far) scene.mark(scene.state.drawn);
-    else if (drag && !drag.far && film !== null) scene.set(event.shiftKey ? { other: film } : { one: film });
+    else if (drag && !drag.far && film !== null && event.shiftKey) scene.set({ other: film });
+    else if (drag && !drag.far && film !== null) scene.choose(film);
     drag = null;
     scene.set({ drawn: null });
   });

@@ -7,19 +7,32 @@ class Scene {
   constructor(section) {
     this.section = section;
     this.settings = JSON.parse(section.querySelector(".settings").textContent);
-    const { width, height, reference, against, insets } = this.settings;
+    const { width, height, frames, reference, against, insets } = this.settings;
     this.camera = new Camera(width, height);
     this.insets = [...insets];
-    this.state = { one: Math.min(1, this.count - 1), other: against, map: "radiance", below: "signed" };
+    this.maps = mapsOf(this.settings);
+    const below = ["flicker", "signed"].find((name) => this.maps.includes(name)) ?? null;
+    this.state = { one: Math.min(1, this.count - 1), other: against, map: "radiance", below, frame: 0 };
     Object.assign(this.state, { stops: 0, wipe: null, held: false, at: null, inset: -1 });
     if (this.state.one === reference) this.state.one = 0;
     section.style.setProperty("--shape", `${width} / ${height}`);
+    this.player = frames > 1 ? new Player(this) : null;
     this.bench = new Bench(this);
     this.figures = [...section.querySelectorAll(".row figure")].map((figure, i) => new FilmFigure(this, figure, i));
     this.redraw = oncePerFrame(() => this.draw());
     watchPointer(this, this.bench.canvas, null);
     this.awake = false;
+    // A figure of a paper stands as it was printed until one looks closer.
+    this.open = !section.classList.contains("exact");
     this.bench.tell();
+  }
+
+  /** Shows the bench. */
+  lookCloser(open) {
+    if (open === this.open) return;
+    this.open = open;
+    this.section.classList.toggle("open", open);
+    this.redraw();
   }
 
   get count() {
@@ -32,7 +45,28 @@ class Scene {
 
   /** The film that is shown: the reference while its key is held. */
   get shown() {
-    return this.state.held ? this.settings.reference : this.state.one;
+    return this.state.held ? (this.settings.reference ?? this.state.one) : this.state.one;
+  }
+
+  /** The radiances of a film in the frame that is shown, or `by` frames on; there is none before the first. */
+  frameOf(film, by = 0) {
+    const { width, height } = this.settings;
+    const first = Math.max(0, this.state.frame + by) * width * height;
+    return this.films[film].subarray(first, first + width * height);
+  }
+
+  /** The mean change of a film over all frames, pixel by pixel. */
+  flickerOf(film) {
+    const { width, height } = this.settings;
+    this.flickers ??= [];
+    return (this.flickers[film] ??= meanChange(this.films[film], null, width * height));
+  }
+
+  /** The mean change of its error. */
+  wrongFlickerOf(film) {
+    const { width, height, reference } = this.settings;
+    this.wrongFlickers ??= [];
+    return (this.wrongFlickers[film] ??= meanChange(this.films[film], this.films[reference], width * height));
   }
 
   /** Decodes the films, once. */
@@ -51,6 +85,7 @@ class Scene {
     this.awake = true;
     await this.load();
     this.redraw();
+    this.player?.run();
   }
 
   /** Lets go of its pictures; they are drawn anew when it wakes. */
@@ -69,7 +104,9 @@ class Scene {
   }
 
   choose(i) {
-    if (i >= 0 && i < this.count) this.set({ one: i });
+    if (i < 0 || i >= this.count) return;
+    this.lookCloser(true);
+    this.set({ one: i });
   }
 
   step(by) {
@@ -108,28 +145,31 @@ class Scene {
   /** What a map says of a film at a pixel. */
   valueAt(map, film, x, y) {
     const i = y * this.settings.width + x;
-    const of = (which) => this.films[which][i];
-    return maps[map].value(of(film), of(this.settings.reference), of(this.state.other));
+    return maps[map].value(...this.layersOf(map, film).map((layer) => layer[i]));
+  }
+
+  layersOf(map, film) {
+    return maps[map].layers.map((layer) => layers[layer](this, film));
   }
 
   /** A map of a film as a picture, painted anew only if what it depends on has changed. */
   picture(film, map) {
     this.pictures ??= new Map();
     const name = `${film} ${map === "radiance" ? "above" : "below"}`;
-    const stamp = [map, this.state.stops, map === "improvement" ? this.state.other : ""].join(" ");
+    const { stops, other, frame } = this.state;
+    const stamp = [map, stops, maps[map].layers.includes("other") ? other : "", frame].join(" ");
     let found = this.pictures.get(name);
     if (found?.stamp === stamp) return found.canvas;
-    const { width, height, reference } = this.settings;
+    const { width, height } = this.settings;
     found ??= { canvas: make("canvas", { width, height }) };
-    const { films } = this;
-    paintMap(found.canvas, maps[map], this.unit(map), films[film], films[reference], films[this.state.other]);
+    paintMap(found.canvas, maps[map], this.unit(map), this.layersOf(map, film));
     this.pictures.set(name, { ...found, stamp });
     return found.canvas;
   }
 
   draw() {
     if (!this.films) return;
-    this.bench.draw();
+    if (this.open) this.bench.draw();
     this.figures.forEach((figure) => figure.draw());
   }
 }
@@ -142,13 +182,13 @@ class FilmFigure {
     const label = scene.label(film);
     const canvas = (what) => make("canvas", { role: "img", "aria-label": `${label}: ${what}` });
     this.above = canvas("image");
-    this.below = canvas("error");
+    this.below = scene.state.below && canvas("map");
     this.close = make("canvas", { role: "img", class: "close", "aria-label": `${label}: insets` });
-    figure.append(this.above, this.below, this.close);
+    figure.append(...[this.above, this.below, this.close].filter(Boolean));
     figure.style.setProperty("--insets", String(Math.max(1, scene.insets.length)));
     figure.querySelector("figcaption").prepend(make("kbd", { text: keyOf(film) }));
     watchPointer(scene, this.above, film);
-    watchPointer(scene, this.below, film);
+    if (this.below) watchPointer(scene, this.below, film);
     this.close.addEventListener("click", (event) => {
       const { width } = this.close.getBoundingClientRect();
       scene.showInset(Math.floor((event.offsetX / width) * scene.insets.length));
@@ -159,8 +199,9 @@ class FilmFigure {
   draw() {
     const { scene, film } = this;
     const { seen } = scene.camera;
-    this.figure.classList.toggle("on", film === scene.state.one);
+    this.figure.classList.toggle("on", scene.open && film === scene.state.one);
     for (const [canvas, map] of [[this.above, "radiance"], [this.below, scene.state.below]]) {
+      if (!canvas) continue;
       const { context, width, height } = prepare(canvas);
       drawSeen(context, scene.picture(film, map), seen, 0, 0, width, height);
       if (canvas === this.above) drawFrames(context, scene.insets, seen, width, height);
@@ -173,6 +214,8 @@ class FilmFigure {
     const { scene, film } = this;
     const { insets } = scene;
     this.figure.style.setProperty("--insets", String(Math.max(1, insets.length)));
+    this.close.hidden = insets.length === 0;
+    if (this.close.hidden) return;
     const { context, width, height } = prepare(this.close);
     context.clearRect(0, 0, width, height);
     const gap = 3;
