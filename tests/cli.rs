@@ -399,6 +399,55 @@ fn a_baked_map_is_one_that_can_be_rendered_and_is_the_same_every_time() {
 }
 
 #[test]
+fn detail_is_laid_onto_a_map_and_a_distribution_is_written_to_be_read_back() {
+    let folder = folder();
+    let bake = |args: &str| {
+        let args: Vec<&str> = std::iter::once("bake").chain(args.split(' ')).collect();
+        let said = output(folder.path(), &args);
+        assert_eq!(said.status.code(), Some(0), "{}", err(&said));
+        out(&said)
+    };
+    bake("ggx:0.3 --size 31x20 --cells 4 --green down --out map.png");
+    let said = bake("--onto map.png --map-green down --green down --amount 0 --out same.png");
+    assert!(
+        said.starts_with("same.png: 31x20, 1 octave of amount 0 onto map.png (31x20)"),
+        "{said}"
+    );
+    // What is lost is far less than a code of 16 bits, but may cross the middle between two.
+    let codes = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb16().into_raw();
+    let (map, same) = (codes("map.png"), codes("same.png"));
+    assert!(map.iter().zip(&same).all(|(a, b)| a.abs_diff(*b) <= 1));
+    let said = bake("ggx:0.1 --onto map.png --size 93x60 --out finer.exr --ndf-out ndf.exr --json");
+    let said: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!((&said["width"], &said["onto"]["width"]), (&93.into(), &31.into()));
+    let tilts =
+        ["rms_tilt_degrees", "rms_tilt_with_detail_degrees"].map(|key| said["onto"][key].as_f64());
+    assert!(tilts[0].unwrap() > 1.0 && tilts[1] > tilts[0], "{said}");
+    assert!(said["onto"]["rms_missed_degrees"].as_f64().unwrap() < 1e-3);
+    assert_eq!(bake("--like map.png --ndf-out alone.png"), "alone.png: the distribution\n");
+    bake("alone.png --size 16x16 --cells 2 --out again.png");
+    for (args, says) in [
+        (
+            &["bake", "--onto", "map.png", "--size", "30x20", "--out", "x.png"][..],
+            "it has 31x20 texels",
+        ),
+        (&["bake", "--onto", "none.png", "--out", "x.png"], "none.png: there is no such file"),
+        (&["bake", "ggx:0.3", "--kind", "height", "--out", "x.png"], "--like"),
+        (&["bake", "ggx:0.3", "--amount", "1", "--out", "x.png"], "--onto"),
+        (&["bake", "--onto", "map.png", "--amount", "nan", "--out", "x.png"], "from 0 to 8"),
+        (&["bake", "ggx:0.3"], "--out"),
+        (
+            &["bake", "ggx:0.3", "--out", "x.png", "--ndf-out", "none/x.png"],
+            "there is no folder none",
+        ),
+    ] {
+        let message = refused(folder.path(), args, 2);
+        assert!(message.contains(says), "{args:?}: {message}");
+    }
+    assert!(!folder.path().join("x.png").exists());
+}
+
+#[test]
 fn what_is_no_distribution_is_told_with_its_place() {
     let folder = folder();
     let image = |name: &str, value: fn(u32, u32) -> u16| {

@@ -1,6 +1,10 @@
 //! Arguments, as written on the command line.
 
+mod bake;
+
 use std::path::PathBuf;
+
+pub use bake::BakeArgs;
 
 use clap::{Args as ArgGroup, Parser, Subcommand};
 
@@ -23,6 +27,7 @@ use crate::tui::picture::{Colours, Pictures};
   wrinkle run quick                   a few seconds' work
   wrinkle render my_normals.png --method fournier --out look.png
   wrinkle bake ggx:0.3 --out rough.png  a normal map that follows a distribution
+  wrinkle bake --onto my_normals.png --out finer.png  the same as detail on a map
   wrinkle list                        experiments, methods, patterns, surfaces",
     disable_help_subcommand = true
 )]
@@ -53,7 +58,7 @@ pub enum Command {
     Compare(CompareArgs),
     /// Fit Phong peaks to a measured distribution.
     Fit(FitArgs),
-    /// Synthesise a normal map from a distribution of normals.
+    /// Synthesise a normal map from a distribution of normals, or detail on a map.
     Bake(BakeArgs),
 }
 
@@ -336,75 +341,6 @@ pub struct FitArgs {
     /// Print as JSON.
     #[arg(long)]
     pub json: bool,
-}
-
-/// Arguments of `bake`.
-#[derive(Debug, ArgGroup)]
-#[command(after_help = "Examples:
-  wrinkle bake beckmann:0.3 --out rough.png
-  wrinkle bake ggx:0.1,0.4,30 --size 2048x2048 --bits 8 --green down --out brushed.png
-  wrinkle bake my_ndf.exr --out bumps.exr
-  wrinkle bake --like my_normals.png --size 1024x1024 --out more_of_it.png
-
-The map repeats without a seam. An image of a distribution is square, its axes the x and y of normals from -1 to
-1, its values densities; the way of Kautz, Heidrich and Seidel 2001.")]
-pub struct BakeArgs {
-    /// The distribution of normals: a lobe (beckmann:A, ggx:A, blinn-phong:S; A,B for widths along u and v,
-    /// A,B,DEGREES to turn them), a multiple surface (name or JSON file of peaks), or an image file.
-    #[arg(value_name = "NDF", required_unless_present = "like")]
-    pub ndf: Option<String>,
-    /// Measure the distribution from this normal map.
-    #[arg(long, value_name = "MAP", conflicts_with = "ndf")]
-    pub like: Option<PathBuf>,
-    /// Which way green is up in that map.
-    #[arg(long, default_value = "up", value_parser = ["up", "down"], requires = "like")]
-    pub like_green: String,
-    /// The normal map to write: PNG, or EXR (32-bit floats).
-    #[arg(long, value_name = "IMAGE")]
-    pub out: PathBuf,
-    /// Width and height of the map, texels.
-    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_map_size)]
-    pub size: (usize, usize),
-    /// Lattice cells of the first octave of noise along the shorter side: how many of the largest bumps there are.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65536))]
-    pub cells: u32,
-    /// Octaves of noise; as many as the texels can show if not given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=24))]
-    pub octaves: Option<u32>,
-    /// Height of each octave over that of the one before, above 0 and below 1.
-    #[arg(long, value_name = "G", default_value_t = 0.5, allow_negative_numbers = true, value_parser = parse_gain)]
-    pub gain: f64,
-    /// What the noise is drawn from.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub seed: u64,
-    /// Bits a coordinate of a PNG.
-    #[arg(long, default_value = "16", value_parser = ["8", "16"])]
-    pub bits: String,
-    /// Which way green is up in what is written.
-    #[arg(long, default_value = "up", value_parser = ["up", "down"])]
-    pub green: String,
-    /// What the values of an image are densities of: normals over the (x, y) map, or over solid angle.
-    #[arg(long, default_value = "map", value_parser = ["map", "solid-angle"])]
-    pub measure: String,
-    /// Print what was made as JSON.
-    #[arg(long)]
-    pub json: bool,
-}
-
-fn parse_map_size(text: &str) -> Result<(usize, usize), String> {
-    let (width, height) = text.split_once('x').ok_or("write it as 1024x1024")?;
-    let side = |side: &str| match side.parse() {
-        Ok(texels @ 1..=16384) => Ok(texels),
-        _ => Err(format!("`{side}` is not a whole number from 1 to 16384")),
-    };
-    Ok((side(width)?, side(height)?))
-}
-
-fn parse_gain(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(gain) if gain > 0.0 && gain < 1.0 => Ok(gain),
-        _ => Err("give a number above 0 and below 1".into()),
-    }
 }
 
 fn parse_size(text: &str) -> Result<(usize, usize), String> {

@@ -9,8 +9,8 @@ use bevy_ecs::prelude::*;
 use placement::{Placement, placements, spawn_lights};
 
 use super::spec::{
-    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, ModelSpec, Pose, Reading as ReadingSpec,
-    ReferenceSpec, Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
+    AxesSpec, EnvironmentSource, LightSpec, MAX_REPEATED, ModelSpec, Pose, ReferenceSpec,
+    Shape as ShapeSpec, Spec, SurfaceSpec, TextureSource, TextureSpec,
 };
 use crate::light::Light;
 use crate::light::environment::{Environment, Read, maps, read};
@@ -26,8 +26,7 @@ use crate::surface::{
     Cylinder, MainDirection, Mesh, Perturbation, Perturbed, Plane, Shape, Sphere, WavyFrame,
     WavySphere, bent_patch, drapery, read_model, ribbon, teapot,
 };
-use crate::texture::image_file::{HeightReading, NormalReading};
-use crate::texture::{Integrated, Wrap, integrate};
+use crate::texture::{Integrated, integrate};
 
 /// The entities of an experiment, in the order of its spec.
 #[derive(Clone, Debug, Default)]
@@ -232,8 +231,12 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
             (entry.build)(*width, *height, values, *seed)
         }
         TextureSource::File { path, reading, .. } => {
-            let reading = reading_of(reading, spec.wrap);
+            let reading = reading.of(spec.wrap);
             pattern::file::read(path, &reading).map_err(|error| LoadError(error.to_string()))?
+        }
+        TextureSource::Baked { recipe, .. } => {
+            let baked = recipe.bake().map_err(|error| LoadError(error.to_string()))?;
+            Bumps { normals: baked.normals, heights: None, notes: baked.notes }
         }
     };
     let heights = heights || spec.interpolation.spline().is_some();
@@ -258,17 +261,6 @@ pub fn load(spec: &TextureSpec, heights: bool) -> Result<Bumps, LoadError> {
         bumps.normals = bumps.normals.replicated(spec.repeat);
     }
     Ok(bumps)
-}
-
-fn reading_of(spec: &ReadingSpec, wrap: Wrap) -> pattern::file::Reading {
-    match *spec {
-        ReadingSpec::Normal { green, zero } => {
-            pattern::file::Reading::Normals(NormalReading { green, zero, wrap })
-        }
-        ReadingSpec::Height { scale } => {
-            pattern::file::Reading::Heights(HeightReading { height_scale: scale, wrap })
-        }
-    }
 }
 
 fn spawn_surface(world: &mut World, spec: &SurfaceSpec) -> Entity {

@@ -219,6 +219,7 @@ fn describe_texture(spec: &TextureSpec, heights: bool) -> TextureInfo {
             format!("pattern {name} ({}; seed {seed})", options.join(", "))
         }
         TextureSource::File { written, reading, .. } => format!("file {written} ({reading:?})"),
+        TextureSource::Baked { written, .. } => written.clone(),
     };
     let description =
         format!("{description}, {:?} wrap, {:?} interpolation", spec.wrap, spec.interpolation);

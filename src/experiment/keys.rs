@@ -77,6 +77,10 @@ pub(super) fn texture(texture: &TextureSpec) -> String {
             format!("{} {reading:?}", contents(path))
         }
         TextureSource::Pattern { .. } => format!("{source:?}"),
+        TextureSource::Baked { recipe, written: _ } => {
+            let files: Vec<String> = recipe.files().into_iter().map(contents).collect();
+            format!("{:?} {files:?}", recipe.clone().nameless())
+        }
     };
     format!("{source} {wrap:?} {interpolation:?} {repeat}")
 }
@@ -156,4 +160,34 @@ pub(super) fn prefilter_name(spec: &Spec, of: &PlannedScene, method: usize) -> (
     let label = &spec.sweep.methods[method].label;
     let name = format!("{label}-{}-{}", of.base.name(), of.base.parameter());
     (format!("prefilters-{}", of.texture), name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(folder: &Path, keys: &str) -> String {
+        let text =
+            format!("[sweep]\ntexture = [\"x\"]\nmethod = [\"averaged\"]\n[texture.x]\n{keys}");
+        let spec = Spec::parse(&text, &folder.join("spec.toml")).unwrap();
+        texture(&spec.sweep.textures[0])
+    }
+
+    #[test]
+    fn baked_textures_depend_on_bytes_of_files_and_not_on_their_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, bytes: &str| std::fs::write(folder.path().join(name), bytes);
+        write("a.png", "one").unwrap();
+        write("b.png", "one").unwrap();
+        write("c.png", "two").unwrap();
+        let key = |keys: &str| key(folder.path(), keys);
+        assert_eq!(key("like = \"a.png\""), key("like = \"b.png\""));
+        assert_ne!(key("like = \"a.png\""), key("like = \"c.png\""));
+        assert_ne!(key("like = \"a.png\""), key("onto = \"a.png\""));
+        assert_ne!(key("ndf = \"a.png\""), key("ndf = \"a.png\"\nmeasure = \"solid-angle\""));
+        assert_ne!(
+            key("onto = \"a.png\"\nndf = \"c.png\""),
+            key("onto = \"c.png\"\nndf = \"a.png\"")
+        );
+    }
 }

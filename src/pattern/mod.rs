@@ -1,6 +1,7 @@
 //! Floor 2: bump sources. One file a pattern; [`entries`] lists them. Image files are a source too.
 
 mod analytic;
+pub mod baked;
 mod bricks;
 mod brushed;
 mod corrugated;

@@ -1,13 +1,13 @@
 //! Bumps synthesised from a distribution of normals (Kautz et al. 2001).
 
+use super::baked::{Family, SIDE, WrittenLobe, ndf_of, octaves};
 use super::{Bumps, Card, Entry};
-use crate::lobe::vector::turned;
-use crate::lobe::{EllipticLobe, MultipleSurface, NdfImage, Profile};
+use crate::lobe::NdfImage;
 use crate::parameter::{Domain, Parameter, Values};
-use crate::synthesis::{Noise, Synthesis, octaves_for};
+use crate::synthesis::{Noise, Synthesis};
 
 /// A map whose normals follow an elliptic NDF: turbulence, mapped through the inverse cumulative distributions of the NDF.
-/// It repeats with the tile. `wrinkle bake` does the same for any NDF.
+/// It repeats with the tile. Textures with the key `ndf`, and `wrinkle bake`, are such maps of any NDF.
 pub const ENTRY: Entry = Entry {
     card: Card {
         name: "synthesised",
@@ -54,37 +54,20 @@ pub const ENTRY: Entry = Entry {
     build,
 };
 
-/// Pixels a side of the NDF.
-const SIDE: usize = 256;
-
 fn build(width: usize, height: usize, values: &Values, seed: u64) -> Bumps {
     let mut notes = vec![];
-    let surface: MultipleSurface = [lobe(values)].into_iter().collect();
-    let ndf = NdfImage::of_surface(&surface, SIDE).unwrap_or_else(|_| {
+    let ndf = ndf_of(&[lobe(values)], SIDE).unwrap_or_else(|_| {
         // A lobe narrower than a pixel of the image.
         notes.push(
             "the distribution is narrower than its image shows: all normals are alike".into(),
         );
         NdfImage::from_fn(SIDE, |[x, y]| f32::from(x * x + y * y < 1e-4)).expect("a pixel is set")
     });
-    let cells = square_cells([width, height], values.whole("cells") as u32);
-    let most = octaves_for([width, height], cells);
-    let octaves = match values.whole("octaves") {
-        0 => most,
-        asked => {
-            if asked as f64 > most {
-                notes.push(format!(
-                    "{asked} octaves are more than the {most} that its texels can show"
-                ));
-            }
-            asked as f64
-        }
-    };
-    if most == 0.0 {
-        notes.push(
-            "it has too few texels a lattice cell to show the noise: it is flat or aliased".into(),
-        );
-    }
+    let size = [width, height];
+    let cells = square_cells(size, values.whole("cells") as u32);
+    let asked = Some(values.whole("octaves") as u32).filter(|asked| *asked > 0);
+    let (octaves, more) = octaves(asked, size, cells);
+    notes.extend(more);
     let noise = Noise { cells, gain: values.number("gain"), seed };
     let normals = Synthesis::new(ndf, noise).bake(width, height, octaves);
     Bumps { normals, heights: None, notes }
@@ -97,16 +80,15 @@ pub fn square_cells([width, height]: [usize; 2], shorter: u32) -> [u32; 2] {
     [width, height].map(|side| along(side).clamp(1, 1 << 20) as u32)
 }
 
-fn lobe(values: &Values) -> EllipticLobe {
-    // A Gaussian's spread is the variance, α²/2; GGX's is α².
-    let (profile, part) = match values.word("profile") {
-        "ggx" => (Profile::Ggx, 1.0),
-        _ => (Profile::Gaussian, 0.5),
-    };
-    let spreads =
-        ["alpha_u", "alpha_v"].map(|name| part * values.number(name) * values.number(name));
-    let spread = turned(spreads, values.number("direction"));
-    EllipticLobe::new([0.0, 0.0, 1.0], spread, 1.0, profile)
+fn lobe(values: &Values) -> WrittenLobe {
+    WrittenLobe {
+        share: 1.0,
+        family: if values.word("profile") == "ggx" { Family::Ggx } else { Family::Beckmann },
+        widths: ["alpha_u", "alpha_v"].map(|name| values.number(name)),
+        direction: values.number("direction"),
+        tilt: 0.0,
+        azimuth: 0.0,
+    }
 }
 
 #[cfg(test)]

@@ -12,15 +12,17 @@ mod bake;
 mod detail;
 mod indices;
 mod inverse;
+mod missed;
 mod table;
 #[cfg(test)]
 mod tests;
 mod values;
 
-pub use agreement::{Agreement, LEAST};
+pub use agreement::{Agreement, LEAST, by_chance, total_variation};
 pub use bake::octaves_for;
 pub use indices::{Bits, IndexTexture};
 pub use inverse::Cumulative;
+pub use missed::Missed;
 pub use table::{ENTRIES, LookupTable, MicroFrame, frame_about};
 pub use values::{NoiseValues, index};
 

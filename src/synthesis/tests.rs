@@ -112,23 +112,46 @@ fn the_table_is_the_normals_rounded() {
     }
 }
 
+/// Bumps of the program's own, 32 texels a side.
+fn waves() -> crate::texture::NormalMap {
+    let entry = crate::pattern::find("waves").unwrap();
+    let values = crate::parameter::Values::defaults(entry.parameters);
+    (entry.build)(32, 32, &values, 1).normals
+}
+
+/// The greatest difference of a coordinate.
+fn apart(map: &crate::texture::NormalMap, other: &crate::texture::NormalMap) -> f32 {
+    let pairs = map.texels().iter().zip(other.texels());
+    let differences = pairs.flat_map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).abs()));
+    differences.fold(0.0, f32::max)
+}
+
 #[test]
 fn detail_of_amount_zero_gives_the_map_back() {
-    let map = crate::pattern::find("waves").unwrap();
-    let values = crate::parameter::Values::defaults(map.parameters);
-    let map = (map.build)(32, 32, &values, 1).normals;
+    let map = waves();
+    let own = NdfImage::of_normals(map.texels(), None, 128).unwrap();
+    let narrow = isotropic(2000.0, 128);
+    let mixed = NdfImage::mixed(&[(0.98, &narrow), (0.02, &own)]).unwrap();
+    // Single precision of a coordinate, a few times over.
+    for ndf in [own, mixed] {
+        let synthesis = Synthesis::new(ndf, Noise::default());
+        let same = apart(&map, &synthesis.with_detail(&map, 0.0, 4.0));
+        assert!(same < 2e-6, "{same}");
+        assert!(apart(&map, &synthesis.with_detail(&map, 0.3, 4.0)) > 0.01);
+    }
+    // Without its own distribution's part, those where the narrow one has none are lost.
+    let narrow = Synthesis::new(narrow, Noise::default());
+    assert!(apart(&map, &narrow.with_detail(&map, 0.0, 4.0)) > 0.1);
+}
+
+#[test]
+fn finer_detail_of_amount_zero_is_the_map_between_its_texels() {
+    let map = waves();
     let ndf = NdfImage::of_normals(map.texels(), None, 128).unwrap().with_floor(0.02);
     let synthesis = Synthesis::new(ndf, Noise::default());
-    let same = synthesis.with_detail(&map, 1, 0.0, 4.0);
-    let apart = map
-        .texels()
-        .iter()
-        .zip(same.texels())
-        .map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).abs()).fold(0.0, f32::max));
     // Indices are kept in single precision; where the NDF is thin a step of them is a long way.
-    let apart: Vec<f32> = apart.collect();
-    assert!(apart.iter().all(|a| *a < 0.02), "{:?}", apart.iter().fold(0.0f32, |m, a| m.max(*a)));
-    assert_eq!(synthesis.with_detail(&map, 3, 0.5, 4.0).width(), 96);
+    assert!(apart(&map, &synthesis.with_finer_detail(&map, 1, 0.0, 4.0)) < 0.02);
+    assert_eq!(synthesis.with_finer_detail(&map, 3, 0.5, 4.0).width(), 96);
 }
 
 #[test]

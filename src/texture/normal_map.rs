@@ -278,6 +278,21 @@ impl NormalMap {
         self.texels.iter().filter(|t| t[2] < MIN_COSINE && t[3] > 0.0).count()
     }
 
+    /// The map with so many texels, its normals between its own found as its interpolation has it. Meant for more texels
+    /// than it has: of fewer, most of its own would be passed over. Its heights are left out.
+    ///
+    /// # Panics
+    /// If a side is 0: a programming error.
+    pub fn resampled(&self, width: usize, height: usize) -> Self {
+        if (width, height) == (self.width, self.height) {
+            return Self { heights: None, ..self.clone() };
+        }
+        let place = |k: usize, side: usize| ((k as f64 + 0.5) / side as f64) as f32;
+        let texel = |k: usize| self.sample(place(k % width, width), place(k / width, height));
+        let texels = (0..width * height).map(texel).collect();
+        Self::new(width, height, self.wrap, texels)
+    }
+
     /// The map turned by 90° counter-clockwise about its centre: normals, heights and positions alike.
     pub fn rotated(&self) -> Self {
         let (width, height) = (self.height, self.width);
@@ -342,6 +357,18 @@ mod tests {
 
     fn ramp() -> NormalMap {
         NormalMap::from_fn(5, 3, Wrap::Repeat, |u, v| [u, v - 0.5, 1.0, 1.0 + u])
+    }
+
+    #[test]
+    fn more_texels_lie_between_those_there_are() {
+        let map = ramp();
+        assert_eq!(map.resampled(5, 3), map);
+        // Three times as many: every third has the place of one of the map's own.
+        let more = map.resampled(15, 9);
+        for (i, j) in [(0, 0), (2, 1), (4, 2)] {
+            let (got, want) = (more.texel(3 * i + 1, 3 * j + 1), map.texel(i, j));
+            assert!((0..4).all(|c| (got[c] - want[c]).abs() < 1e-5), "{got:?} {want:?}");
+        }
     }
 
     #[test]

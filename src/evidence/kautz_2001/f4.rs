@@ -111,7 +111,8 @@ fn claims(found: &[(f64, f64)]) -> Vec<Claim> {
             (own.0 - 1.0).abs() <= 0.1,
         )
         .because(
-            "bumps that follow the NDF are shaded by it once more: the look widens, see kautz-z",
+            "bumps that follow the NDF are shaded by it once more: the look widens; kautz-z has that, and a reading that keeps \
+             the look",
         ),
         Claim::not_applicable(
             "likeness to Figure 4",

@@ -11,7 +11,9 @@ use crate::geometry::noise::Turbulence;
 use crate::lobe::NdfImage;
 use crate::lobe::vector::V3;
 use crate::parameter::{Domain, Parameter};
-use crate::synthesis::{Agreement, Noise, NoiseValues, Normals, Synthesis, index};
+use crate::synthesis::{
+    Agreement, ENTRIES, Noise, NoiseValues, Normals, Synthesis, by_chance, index, total_variation,
+};
 
 /// The row.
 pub const ROW: Row = Row {
@@ -40,11 +42,13 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     let draws = task.values.whole("draws");
     let caption = format!(
         "{draws} normals at random places of turbulence of {OCTAVES} octaves, seed {}, counted in {SQUARES} × {SQUARES} \
-         squares of the (x, y) map: χ² with its degrees of freedom and p-value, and the total variation distance.",
+         squares of the (x, y) map: χ² with its degrees of freedom and p-value, the total variation distance, and what as \
+         many draws from the distribution itself have of that on average.",
         task.seed
     );
-    let head = ["distribution", "way", "χ²", "degrees", "p", "total variation"];
+    let head = ["distribution", "way", "χ²", "degrees", "p", "total variation", "by chance alone"];
     let mut table = Table::new("follow", caption, &head);
+    let mut entries = entry_table();
     let (mut least, mut table_apart, mut without, mut aligned) = (1.0f64, 0.0f64, 1.0f64, 1.0f64);
     for (label, ndf) in [
         ("isotropic", isotropic(12.0)),
@@ -52,12 +56,17 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
         ("several lobes", several()),
     ] {
         let ways = Ways::new(ndf, task.seed, draws);
+        let chance = by_chance(&ways.synthesis.ndf, draws, SQUARES);
+        let apart = entries_apart(&ways.synthesis);
+        table_apart = table_apart.max(apart[0]);
+        let mut row = vec![label.into()];
+        row.extend(apart.map(Into::into));
+        entries.push(row);
         for (way, found) in ways.all() {
             task.go_on()?;
             let p = found.p_value();
             match way {
                 EXACT => least = least.min(p),
-                TABLE => table_apart = table_apart.max(found.total_variation),
                 STRAIGHT => without = without.min(found.total_variation),
                 ALIGNED => aligned = aligned.min(p),
                 _ => {}
@@ -69,6 +78,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
                 found.degrees.into(),
                 p.into(),
                 found.total_variation.into(),
+                chance.into(),
             ]);
         }
     }
@@ -86,12 +96,15 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
             least > ALPHA,
         ),
         Claim::at_most(
-            "total variation of normals from the 256 × 256 table, at most",
+            "total variation of the 256 × 256 table's own distribution, nothing drawn, at most",
             "a full lookup table with 256 × 256 entries (§4)",
             0.03,
             table_apart,
         )
-        .because("indices near the middle of the noise are frequent: there an entry stands for many normals"),
+        .because(
+            "indices near the middle of the noise are frequent: there an entry stands for many normals; see the readings of \
+             where entries stand",
+        ),
         Claim::shown(
             "total variation without the mapping through G, at least",
             "we have to do the additional mapping (§4)",
@@ -103,7 +116,7 @@ fn make(task: &Task) -> Result<Exhibit, Halted> {
     exhibit.claims.extend(noise);
     let mut of_noise = vec![];
     let figure = chart(&mut of_noise);
-    exhibit.tables = vec![table, table_of_noise()];
+    exhibit.tables = vec![table, entries, table_of_noise()];
     exhibit.figures = vec![figure];
     exhibit.remarks = vec![format!(
         "Gradient noise is 0 at lattice points whatever its settings. Two turbulences on one lattice are therefore small \
@@ -164,6 +177,59 @@ impl Ways {
         let normals = (0..self.draws).map(|_| normal([part(), part()]));
         Agreement::of(&self.synthesis.ndf, normals, SQUARES)
     }
+}
+
+fn entry_table() -> Table {
+    let caption = format!(
+        "Total variation distance of what the table holds, each entry by the noise's probability of its cell, over {SQUARES} × \
+         {SQUARES} squares. Nothing is drawn. Entries stand at the middles of {ENTRIES} equal cells, as a texture's do and as \
+         they are here; or at i/{} with cells about them; or the noise is mapped through G first, so that all are met alike.",
+        ENTRIES - 1
+    );
+    let head = [
+        "distribution",
+        "entries at (i + ½)/256",
+        "entries at i/255",
+        "entries of equal probability",
+    ];
+    Table::new("entries", caption, &head)
+}
+
+/// The total variation distances of the table's distribution, by the readings of [`entry_table`].
+fn entries_apart(Synthesis { ndf, normals, table, .. }: &Synthesis) -> [f64; 3] {
+    let n = ENTRIES as f64;
+    let middle = |k: usize| (k as f64 + 0.5) / n;
+    let below = |k: usize, r: f64| normals.values[k].below(r);
+    let own = |entry: [usize; 2]| table.nearest(entry.map(|k| middle(k) as f32))[2];
+    let ends = |entry: [usize; 2]| normals.at(entry.map(|k| k as f64 / (n - 1.0)));
+    let even = |entry: [usize; 2]| {
+        let [x, y] = normals.cumulative.place(entry.map(middle));
+        [2.0 * x - 1.0, 2.0 * y - 1.0, 0.0].map(|c| c as f32)
+    };
+    let about = |k: f64| ((k - 0.5) / (n - 1.0)).clamp(0.0, 1.0);
+    [
+        distribution_apart(ndf, |k, i| below(k, i / n), own),
+        distribution_apart(ndf, |k, i| below(k, about(i)), ends),
+        distribution_apart(ndf, |_, i| i / n, even),
+    ]
+}
+
+/// The same of these normals, of which those of entries before the i-th along either axis have the probability `below(axis,
+/// i)` there.
+fn distribution_apart(
+    ndf: &NdfImage,
+    below: impl Fn(usize, f64) -> f64,
+    normal: impl Fn([usize; 2]) -> V3,
+) -> f64 {
+    let [across, along] = [0, 1].map(|axis| {
+        let edge = |i: usize| below(axis, i as f64);
+        (0..ENTRIES).map(|i| edge(i + 1) - edge(i)).collect::<Vec<f64>>()
+    });
+    let entries = (0..ENTRIES * ENTRIES).map(|k| {
+        let (i, j) = (k % ENTRIES, k / ENTRIES);
+        (normal([i, j]), across[i] * along[j])
+    });
+    total_variation(ndf, entries, SQUARES)
 }
 
 /// Octaves that are compared.

@@ -11,7 +11,7 @@ use crate::parameter::Values;
 use crate::pattern;
 use crate::render::{Camera, Film, direction};
 use crate::surface::{Plane, Shape};
-use crate::synthesis::{Bits, IndexTexture, Noise, Normals, Synthesis};
+use crate::synthesis::{Bits, IndexTexture, Missed, Noise, Normals, Synthesis};
 use crate::texture::NormalMap;
 
 /// The row.
@@ -90,34 +90,15 @@ fn back(map: &NormalMap, own: &NdfImage) -> (Table, [f64; 3]) {
             [(Bits::Float, "unrounded"), (Bits::Sixteen, "16 bits"), (Bits::Eight, "8 bits")]
         {
             let indices = IndexTexture::of_map(&normals, map, bits);
-            let found = missed(map, &normals, indices.level(0));
+            let back = indices.level(0).iter().map(|r| normals.at(r.map(f64::from)));
+            let Missed { rms, most, far } = Missed::of(map.texels(), back);
             if bits == Bits::Float {
-                kept[k] = if k == 0 { found[0] } else { found[2] };
+                kept[k] = if k == 0 { rms } else { far };
             }
-            let mut row = vec![label.into(), name.into()];
-            row.extend(found.map(Into::into));
-            table.push(row);
+            table.push(vec![label.into(), name.into(), rms.into(), most.into(), far.into()]);
         }
     }
     (table, kept)
-}
-
-/// [root mean square angle, greatest angle, part above 2°] between a map's normals and those of indices, degrees.
-fn missed(map: &NormalMap, normals: &Normals, indices: &[[f32; 2]]) -> [f64; 3] {
-    let angles: Vec<f64> = map
-        .texels()
-        .iter()
-        .zip(indices)
-        .map(|(t, r)| {
-            let n = normals.at(r.map(f64::from));
-            let chord: f64 = (0..3).map(|c| f64::from(n[c] - t[c]) * f64::from(n[c] - t[c])).sum();
-            2.0 * libm::asin((0.5 * chord.sqrt()).min(1.0)).to_degrees()
-        })
-        .collect();
-    let count = angles.len() as f64;
-    let square = angles.iter().map(|a| a * a).sum::<f64>() / count;
-    let most = angles.iter().fold(0.0f64, |m, a| m.max(*a));
-    [square.sqrt(), most, angles.iter().filter(|a| **a > 2.0).count() as f64 / count]
 }
 
 /// The map and the map with detail, near by; and the root mean square tilt of both, degrees.
@@ -129,15 +110,8 @@ fn detailed(
     const FINER: usize = 4;
     let noise = Noise { cells: [48; 2], seed: task.seed, ..Noise::default() };
     let synthesis = Synthesis::new(own.with_floor(0.02), noise);
-    let fine = synthesis.with_detail(map, FINER, 0.5, 3.0);
-    let tilt = |map: &NormalMap| {
-        let square = |t: &[f32; 4]| {
-            let angle = libm::acos(f64::from(t[2]).clamp(-1.0, 1.0)).to_degrees();
-            angle * angle
-        };
-        (map.texels().iter().map(square).sum::<f64>() / map.texels().len() as f64).sqrt()
-    };
-    let tilts = [tilt(map), tilt(&fine)];
+    let fine = synthesis.with_finer_detail(map, FINER, 0.5, 3.0);
+    let tilts = [map, &fine].map(|map| Missed::upright(map.texels()).rms);
     let base = BaseLobe::BlinnPhong { exponent: 40.0 };
     let picture = |map: &NormalMap| -> Result<Film, Halted> {
         let camera = Camera::orbiting(1.2, 45.0, -90.0, 22.0, 224, 168);

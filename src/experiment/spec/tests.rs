@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::lobe::BaseLobe;
 use crate::parameter::{Domain, Parameter, Values};
+use crate::pattern::baked::{Ground, NdfSource};
 use crate::pattern::{self, Bumps};
 use crate::surface::Perturbation;
 use crate::texture::{Interpolation, NormalMap, Wrap};
@@ -289,7 +290,9 @@ fn the_manual_names_every_key_under_its_heading() {
     let turning = "[motion]\nkind = \"drift\"\n";
     let coming = "[motion]\nkind = \"approach\"\nto = 2\n";
     let grooves = "[material]\nshading = \"torrance-sparrow\"\n";
-    for more in ["", normal_file, around, turning, coming, grooves] {
+    let of_words = "[texture.x]\nndf = \"ggx:0.2\"\n";
+    let onto = "[texture.x]\nonto = \"../Cargo.toml\"\n";
+    for more in ["", normal_file, around, turning, coming, grooves, of_words, onto] {
         let text = format!("{SMALLEST}{more}");
         let log = Log::new(Path::new("experiments/ribbed.toml"), &text);
         Spec::parse_with(&catalogue(), &log, &text).unwrap();
@@ -310,6 +313,56 @@ fn the_manual_names_every_key_under_its_heading() {
 }
 
 #[test]
+fn bumps_are_baked_from_words_from_files_and_onto_maps() {
+    let of = |keys: &str| -> Result<TextureSource, SpecErrors> {
+        let spec =
+            format!("[sweep]\ntexture = [\"x\"]\nmethod = [\"averaged\"]\n[texture.x]\n{keys}");
+        parse(&spec).map(|spec| spec.sweep.textures[0].source.clone())
+    };
+    let recipe = |keys: &str| match of(keys) {
+        Ok(TextureSource::Baked { recipe, written }) => (recipe, written),
+        other => panic!("{keys}: {other:?}"),
+    };
+    let (words, written) = recipe("ndf = \"2*ggx:0.1 + ggx:0.3@20,0\"\nwidth = 64\ncells = 4");
+    let Ground::Bare { ndf: NdfSource::Lobes(lobes), size: [64, 128] } = &words.ground else {
+        panic!("{words:?}");
+    };
+    assert_eq!((lobes.len(), words.cells, words.octaves, words.seed), (2, Some(4), None, 1));
+    assert!(written.starts_with("baked (ndf = \"2*ggx:0.1"), "{written}");
+    let (like, _) = recipe("like = \"../data/denim.png\"\ngreen = \"down\"\noctaves = 2");
+    assert_eq!(like.files(), [Path::new("experiments/../data/denim.png")]);
+    assert_eq!(like.octaves, Some(2));
+    let (onto, written) =
+        recipe("onto = \"../data/denim.png\"\nndf = \"velvet\"\namount = 0.25\nseed = 9");
+    assert!(written.contains("onto = \"../data/denim.png\""), "{written}");
+    let Ground::Onto { ndf: Some(NdfSource::Named("velvet")), amount, size: None, .. } =
+        onto.ground
+    else {
+        panic!("{onto:?}");
+    };
+    assert_eq!((amount, onto.seed), (0.25, 9));
+    for (keys, message) in [
+        ("ndf = \"ggx:7\"", "`ndf`: ggx:7: a roughness α is from 0.02 to 2"),
+        ("like = \"none.png\"\ngain = 0.6", "there is no file experiments/none.png"),
+        ("onto = \"../data/denim.png\"\nwidth = 2048", "`width` and `height` go together"),
+        ("ndf = \"silk\"\nlike = \"../data/denim.png\"", "[texture.x] has both `ndf` and `like`"),
+        (
+            "ndf = \"silk\"\npattern = \"ribs\"",
+            "[texture.x] has both bumps and what to bake them from",
+        ),
+        ("ndf = \"silk\"\namount = 0.5", "unknown key `amount` in [texture.x]"),
+        (
+            "onto = \"../data/denim.png\"\namount = -1",
+            "`amount` must be a number from 0 to 8, not -1",
+        ),
+    ] {
+        let error = of(keys).expect_err(message);
+        let messages: Vec<&str> = error.errors().iter().map(|e| e.message.as_str()).collect();
+        assert_eq!(messages, [message], "{keys}");
+    }
+}
+
+#[test]
 fn no_option_hides_behind_a_key_of_its_table() {
     let known = Catalogue::all();
     for parameter in crate::light::environment::maps::entries().iter().flat_map(|e| e.parameters) {
@@ -317,7 +370,19 @@ fn no_option_hides_behind_a_key_of_its_table() {
         assert!(!taken.contains(&parameter.name), "{}", parameter.name);
     }
     for parameter in known.patterns.iter().flat_map(|entry| entry.parameters) {
-        let taken = ["pattern", "file", "width", "height", "seed", "wrap", "interpolation"];
+        let taken = [
+            "pattern",
+            "file",
+            "ndf",
+            "like",
+            "onto",
+            "width",
+            "height",
+            "seed",
+            "wrap",
+            "interpolation",
+            "repeat",
+        ];
         assert!(!taken.contains(&parameter.name), "{}", parameter.name);
     }
     for parameter in known.methods.iter().flat_map(|entry| entry.parameters) {
@@ -333,7 +398,7 @@ proptest! {
 
     #[test]
     fn any_value_under_any_key_is_read_or_refused(
-        key in "(title|seed|image|sweep|light|method|texture|texture\\.a|sweep\\.spp|sweep\\.lobe|sweep\\.texture|light\\.position|light\\.kind|motion|motion\\.frames|image\\.width|material\\.lobe|texture\\.a\\.file|method\\.a\\.use)",
+        key in "(title|seed|image|sweep|light|method|texture|texture\\.a|sweep\\.spp|sweep\\.lobe|sweep\\.texture|light\\.position|light\\.kind|motion|motion\\.frames|image\\.width|material\\.lobe|texture\\.a\\.file|texture\\.a\\.ndf|texture\\.a\\.onto|method\\.a\\.use)",
         value in "(3|-3|0x10|9999999999|1.5|inf|nan|true|\"\"|\"x\"|\"ribs\"|\\[\\]|\\[1, 1\\]|\\[\"ribs\"\\]|\\[\\[1\\]\\]|\\{\\}|\\{ a = 1 \\}|\\[\\{\\}, \\{\\}\\]|2020-01-01)",
     ) {
         if let Err(error) = parse(&format!("{key} = {value}\n")) {

@@ -1,13 +1,18 @@
-//! Textures: a pattern of the program's, or an image file.
+//! Textures: a pattern of the program's, an image file, or bumps baked from a distribution.
+
+mod baked;
 
 use std::path::PathBuf;
 
 use super::catalogue::Catalogue;
+use super::item::Item;
 use super::limits::Limits;
 use super::reader::Reader;
 use super::values::read_values;
 use crate::parameter::Values;
-use crate::texture::image_file::{Green, Zero};
+use crate::pattern;
+use crate::pattern::baked::Recipe;
+use crate::texture::image_file::{Green, HeightReading, NormalReading, Zero};
 use crate::texture::{Interpolation, Wrap};
 
 /// A texture of the sweep.
@@ -50,6 +55,13 @@ pub enum TextureSource {
         /// What its pixels mean.
         reading: Reading,
     },
+    /// Bumps baked from a distribution of normals.
+    Baked {
+        /// What is to be baked.
+        recipe: Recipe,
+        /// What it is made of, with paths as the spec has them.
+        written: String,
+    },
 }
 
 /// What an image file's pixels mean.
@@ -67,6 +79,20 @@ pub enum Reading {
         /// Height of white, in sides of a texel; negative turns bumps into dents.
         scale: f64,
     },
+}
+
+impl Reading {
+    /// The same for a reader of files; `wrap` is what lies beyond the edge.
+    pub fn of(&self, wrap: Wrap) -> pattern::file::Reading {
+        match *self {
+            Self::Normal { green, zero } => {
+                pattern::file::Reading::Normals(NormalReading { green, zero, wrap })
+            }
+            Self::Height { scale } => {
+                pattern::file::Reading::Heights(HeightReading { height_scale: scale, wrap })
+            }
+        }
+    }
 }
 
 /// Texels along a side of a pattern.
@@ -99,17 +125,32 @@ impl TextureSpec {
         catalogue: &Catalogue,
         seed: u64,
     ) -> Option<Self> {
-        let source = read_source(reader, catalogue, seed);
         let wraps = [("repeat", Wrap::Repeat), ("clamp", Wrap::Clamp)];
         let wrap = reader.choice("wrap", &wraps);
+        let source = read_source(reader, catalogue, seed, wrap);
         let interpolation = reader.choice("interpolation", &Interpolation::ALL);
         let repeat = reader.whole("repeat", 1, 1, MAX_REPEAT) as usize;
         Some(Self { name: name.to_owned(), source: source?, wrap, interpolation, repeat })
     }
 }
 
-fn read_source(reader: &Reader, catalogue: &Catalogue, seed: u64) -> Option<TextureSource> {
-    match (reader.item("pattern"), reader.item("file")) {
+fn read_source(
+    reader: &Reader,
+    catalogue: &Catalogue,
+    seed: u64,
+    wrap: Wrap,
+) -> Option<TextureSource> {
+    let baked = baked::Words::of(reader);
+    let (pattern, file) = (reader.item("pattern"), reader.item("file"));
+    match (pattern, file) {
+        (None, None) if baked.any() => baked.read(reader, seed, wrap),
+        (Some(other), _) | (_, Some(other)) if baked.any() => {
+            let message = format!("{} has both bumps and what to bake them from", reader.name());
+            let help = "keep `pattern`, `file`, or those of `ndf`, `like` and `onto`".to_owned();
+            other.error(message, Some(help));
+            reader.forgive();
+            None
+        }
         (Some(pattern), None) => {
             let entry = pattern.text().and_then(|name| catalogue.need_pattern(name, &pattern));
             if entry.is_none() {
@@ -126,14 +167,10 @@ fn read_source(reader: &Reader, catalogue: &Catalogue, seed: u64) -> Option<Text
             })
         }
         (None, Some(file)) => {
-            let written = file.text();
-            let path = written.map(|written| folder(reader).join(written));
-            if let Some(path) = path.as_ref().filter(|path| !path.is_file()) {
-                let help = "paths are relative to the folder of this file".to_owned();
-                file.error(format!("there is no file {}", path.display()), Some(help));
-            }
+            let found = read_path(reader, &file);
             let reading = read_reading(reader);
-            Some(TextureSource::File { path: path?, written: written?.to_owned(), reading })
+            let (path, written) = found?;
+            Some(TextureSource::File { path, written, reading })
         }
         (Some(_), Some(file)) => {
             let message = format!("{} has both `pattern` and `file`", reader.name());
@@ -142,12 +179,26 @@ fn read_source(reader: &Reader, catalogue: &Catalogue, seed: u64) -> Option<Text
             None
         }
         (None, None) => {
-            let message = format!("{} needs the key `pattern` or `file`", reader.name());
+            let message = format!(
+                "{} needs the key `pattern`, `file`, `ndf`, `like` or `onto`",
+                reader.name()
+            );
             reader.error(message, None);
             reader.forgive();
             None
         }
     }
+}
+
+/// The file that a value names, and its path as written.
+fn read_path(reader: &Reader, item: &Item) -> Option<(PathBuf, String)> {
+    let written = item.text()?;
+    let path = folder(reader).join(written);
+    if !path.is_file() {
+        let help = "paths are relative to the folder of this file".to_owned();
+        item.error(format!("there is no file {}", path.display()), Some(help));
+    }
+    Some((path, written.to_owned()))
 }
 
 /// The folder that paths in the spec start from.

@@ -11,6 +11,7 @@ mod luminance;
 mod normals;
 mod preview;
 mod samples;
+mod values;
 mod write;
 
 pub use error::ImageError;
@@ -18,6 +19,7 @@ pub use heights::{HeightReading, read_height_map};
 pub use luminance::{Luminance, read_luminance};
 pub use normals::{Green, NormalReading, Zero, read_normal_map};
 pub use preview::{Preview, preview};
+pub use values::{read_values, write_values_exr, write_values_png};
 pub use write::{Codes, write_normal_map_exr, write_normal_map_png, write_normal_map_png16};
 
 /// A map from a file, and what is worth knowing about it.

@@ -56,14 +56,24 @@ pub fn write_normal_map_png(
         Codes::Eight => (&eight, ExtendedColorType::Rgb8),
         Codes::Sixteen => (bytemuck::cast_slice(&samples), ExtendedColorType::Rgb16),
     };
+    write_png(path.as_ref(), pixels, (map.width(), map.height()), colour)
+}
+
+/// Writes samples as a PNG file, whole or not at all; the same samples give the same bytes on every machine.
+pub(super) fn write_png(
+    path: &Path,
+    samples: &[u8],
+    (width, height): (usize, usize),
+    colour: ExtendedColorType,
+) -> Result<(), ImageError> {
     let mut bytes = Vec::new();
     // "Fast" is compressed by the PNG crate itself; other settings ask a library that may differ.
     let written =
         PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
-            .write_image(pixels, map.width() as u32, map.height() as u32, colour);
-    let unwritable = |source| ImageError::Unwritable { path: path.as_ref().to_owned(), source };
+            .write_image(samples, width as u32, height as u32, colour);
+    let unwritable = |source| ImageError::Unwritable { path: path.to_owned(), source };
     written.map_err(|e| unwritable(Error::other(e)))?;
-    write_whole(path.as_ref(), &bytes).map_err(unwritable)
+    write_whole(path, &bytes).map_err(unwritable)
 }
 
 /// Writes a map's normals as an EXR file of 32-bit floats R, G and B: the coordinates themselves, from −1 to 1.
@@ -77,19 +87,27 @@ pub fn write_normal_map_exr(
     green: Green,
 ) -> Result<(), ImageError> {
     let samples: Vec<[f32; 3]> = top_down(map, green).collect();
-    let width = map.width();
+    write_exr(path.as_ref(), &samples, (map.width(), map.height()))
+}
+
+/// Writes pixels as an EXR file of 32-bit floats R, G and B, whole or not at all.
+pub(super) fn write_exr(
+    path: &Path,
+    samples: &[[f32; 3]],
+    (width, height): (usize, usize),
+) -> Result<(), ImageError> {
     let pixel = |at: Vec2<usize>| {
         let [x, y, z] = samples[at.y() * width + at.x()];
         (x, y, z)
     };
     let channels = SpecificChannels::rgb(pixel);
-    let size = Vec2(width, map.height());
+    let size = Vec2(width, height);
     let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, channels);
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
-    let unwritable = |source| ImageError::Unwritable { path: path.as_ref().to_owned(), source };
+    let unwritable = |source| ImageError::Unwritable { path: path.to_owned(), source };
     written.map_err(|e| unwritable(Error::other(e)))?;
-    write_whole(path.as_ref(), &bytes.into_inner()).map_err(unwritable)
+    write_whole(path, &bytes.into_inner()).map_err(unwritable)
 }
 
 /// The normals from the picture's top row on.
