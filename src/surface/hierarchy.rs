@@ -1,8 +1,5 @@
 //! Boxes within boxes around many small things, and the first of them that a ray meets.
 
-mod boxes;
-
-use boxes::{Bounds, Nearby, Node, WIDE};
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::{Bvh, BvhNode, BvhNodeBuildArgs};
@@ -12,18 +9,77 @@ use crate::geometry::Vec3;
 /// Corners of a box along the axes, world space: least and greatest coordinates.
 pub(super) type Corners = [Vec3; 2];
 
-/// A tree of boxes, up to four within one. It is built by the crate `bvh`; rays walk a compact copy, nearest box first,
-/// that takes a tree of any depth and forgets what lies behind the nearest hit.
+/// A binary tree of boxes. It is built by the crate `bvh`; rays walk a compact copy, nearest box first, that
+/// takes a tree of any depth and forgets what lies behind the nearest hit.
 #[derive(Clone, Debug)]
 pub(super) struct Hierarchy {
-    /// The topmost first; empty if there is nothing at all.
     nodes: Vec<Node>,
-    /// The box around everything.
-    around: Corners,
+    /// The topmost node or leaf; `None` if there is nothing at all.
+    root: Option<u32>,
+}
+
+/// Two children, each with a box around it.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    bounds: [Bounds; 2],
+    /// Index of a node, or of a leaf if [`LEAF`] is set.
+    children: [u32; 2],
 }
 
 /// Marks the index of a leaf.
 const LEAF: u32 = 1 << 31;
+
+/// A box in single precision, rounded outwards.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Bounds {
+    fn around([low, high]: &Corners) -> Self {
+        Self {
+            low: [low.x, low.y, low.z].map(|c| (c as f32).next_down()),
+            high: [high.x, high.y, high.z].map(|c| (c as f32).next_up()),
+        }
+    }
+
+    fn join(self, other: Self) -> Self {
+        let pick =
+            |a: [f32; 3], b: [f32; 3], f: fn(f32, f32) -> f32| [0, 1, 2].map(|k| f(a[k], b[k]));
+        Self {
+            low: pick(self.low, other.low, f32::min),
+            high: pick(self.high, other.high, f32::max),
+        }
+    }
+
+    /// Distance at which a ray enters the box, 0 within it; infinity if it passes by, or enters beyond `far`.
+    #[inline(always)]
+    fn entered(&self, origin: Vec3, per_step: Vec3, far: f64) -> f64 {
+        // No ray slips between boxes that touch, however distances round.
+        const SLACK: f64 = 1.0 + 1e-12;
+        let (mut enter, mut exit) = (0.0f64, far);
+        for k in 0..3 {
+            let a = (f64::from(self.low[k]) - origin[k]) * per_step[k];
+            let b = (f64::from(self.high[k]) - origin[k]) * per_step[k];
+            enter = greater(enter, lesser(a, b));
+            exit = lesser(exit, greater(a, b));
+        }
+        if enter <= exit * SLACK { enter } else { f64::INFINITY }
+    }
+}
+
+/// The lesser of two numbers of which none is NaN: one instruction, where `f64::min` takes a few.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers of which none is NaN.
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
 
 /// What the crate builds from: a box that is told its place.
 struct Leaf {
@@ -64,41 +120,43 @@ impl Hierarchy {
         direction: Vec3,
         mut meet: impl FnMut(usize) -> Option<(f64, T)>,
     ) -> Option<(f64, T)> {
-        if self.nodes.is_empty() {
-            return None;
-        }
-        let ray = Nearby::new(origin, direction, &self.around)?;
+        let per_step = direction.map(reciprocal);
         let mut found: Option<(f64, T)> = None;
-        let (mut far, mut reach) = (f64::INFINITY, f32::INFINITY);
+        let mut far = f64::INFINITY;
         let mut waiting = Waiting::new();
-        let mut next = Some(0);
+        let mut next = self.root;
         while let Some(at) = next {
             next = None;
             if at & LEAF == 0 {
-                let node = &self.nodes[at as usize];
-                // Those entered, the farthest first.
-                let mut entered = arrayvec::ArrayVec::<PutOff, WIDE>::new();
-                for (child, distance) in node.children.into_iter().zip(node.entered(&ray, reach)) {
-                    if distance < f32::INFINITY {
-                        let place = entered.iter().take_while(|(_, d)| *d > distance).count();
-                        entered.insert(place, (child, distance));
-                    }
+                let Node { bounds, children } = &self.nodes[at as usize];
+                let [left, right] = bounds;
+                let entered =
+                    [left.entered(origin, per_step, far), right.entered(origin, per_step, far)];
+                let near = usize::from(entered[1] < entered[0]);
+                if entered[1 - near] < f64::INFINITY {
+                    waiting.push((children[1 - near], entered[1 - near]));
                 }
-                next = entered.pop().map(|(child, _)| child);
-                entered.into_iter().for_each(|later| waiting.push(later));
+                if entered[near] < f64::INFINITY {
+                    next = Some(children[near]);
+                }
             } else if let Some((t, what)) = meet((at & !LEAF) as usize)
                 && t < far
             {
-                (far, reach) = (t, ray.reach(t));
+                far = t;
                 found = Some((t, what));
             }
             while next.is_none() {
                 let Some((child, entered)) = waiting.pop() else { return found };
-                next = (entered <= reach).then_some(child);
+                next = (entered <= far).then_some(child);
             }
         }
         found
     }
+}
+
+/// 1/c, finite and of the sign of `c` even where c is 0: then a ray within a box's sides stays within.
+fn reciprocal(c: f64) -> f64 {
+    1.0 / c.abs().max(1e-300).copysign(c)
 }
 
 /// Builds both halves, large ones at once.
@@ -112,77 +170,41 @@ fn split(a: BvhNodeBuildArgs<'_, Leaf, f64, 3>, b: BvhNodeBuildArgs<'_, Leaf, f6
     }
 }
 
-/// The crate's tree with every other floor left out, so that nodes have up to four children; and its leaves in order.
+/// Nodes and leaves numbered in the order in which the crate holds them, parents before children.
 fn compact(built: &[BvhNode<f64, 3>], around: impl Fn(usize) -> Bounds) -> (Hierarchy, Vec<u32>) {
+    let mut order = Vec::new();
+    let mut inner = 0;
+    let number = |node: &BvhNode<f64, 3>| match *node {
+        BvhNode::Leaf { shape_index, .. } => {
+            order.push(shape_index as u32);
+            (order.len() - 1) as u32 | LEAF
+        }
+        BvhNode::Node { .. } => {
+            inner += 1;
+            inner - 1
+        }
+    };
+    let numbers: Vec<u32> = built.iter().map(number).collect();
     // From the last to the first, so that children's boxes are known before their parents'.
-    let mut boxes = vec![Bounds::around(&[Vec3::zeros(); 2]); built.len()];
-    for (index, node) in built.iter().enumerate().rev() {
-        boxes[index] = match *node {
+    let mut boxes: Vec<Bounds> = Vec::with_capacity(built.len());
+    let mut nodes: Vec<Node> = Vec::with_capacity(inner as usize);
+    for node in built.iter().rev() {
+        boxes.push(match *node {
             BvhNode::Leaf { shape_index, .. } => around(shape_index),
             BvhNode::Node { child_l_index, child_r_index, .. } => {
-                boxes[child_l_index].join(boxes[child_r_index])
+                let children = [child_l_index, child_r_index];
+                let bounds = children.map(|child| boxes[built.len() - 1 - child]);
+                nodes.push(Node { bounds, children: children.map(|child| numbers[child]) });
+                bounds[0].join(bounds[1])
             }
-        };
+        });
     }
-    let mut tree = Hierarchy {
-        nodes: Vec::new(),
-        around: boxes.first().map_or([Vec3::zeros(); 2], Bounds::corners),
-    };
-    let mut order = Vec::new();
-    if !built.is_empty() {
-        tree.nodes.push(Node::EMPTY);
-    }
-    // Nodes whose children are still to be put: their places here, and in the crate's tree.
-    let mut open: Vec<(usize, usize)> = tree.nodes.iter().map(|_| (0, 0)).collect();
-    while let Some((place, index)) = open.pop() {
-        for (lane, child) in adopted(built, &boxes, index).into_iter().enumerate() {
-            let number = match built[child] {
-                BvhNode::Leaf { shape_index, .. } => {
-                    order.push(shape_index as u32);
-                    (order.len() - 1) as u32 | LEAF
-                }
-                BvhNode::Node { .. } => {
-                    tree.nodes.push(Node::EMPTY);
-                    open.push((tree.nodes.len() - 1, child));
-                    (tree.nodes.len() - 1) as u32
-                }
-            };
-            tree.nodes[place].put(lane, &boxes[child], number);
-        }
-    }
-    (tree, order)
-}
-
-/// What becomes a node's children: the leaf itself, or its two, of which the larger gives way to its own two while there
-/// are fewer than four.
-fn adopted(
-    built: &[BvhNode<f64, 3>],
-    boxes: &[Bounds],
-    index: usize,
-) -> arrayvec::ArrayVec<usize, WIDE> {
-    let children = |index: usize| match built[index] {
-        BvhNode::Leaf { .. } => None,
-        BvhNode::Node { child_l_index, child_r_index, .. } => Some([child_l_index, child_r_index]),
-    };
-    let area = |index: usize| {
-        let [x, y, z] = [0, 1, 2].map(|k| boxes[index].high[k] - boxes[index].low[k]);
-        x * y + y * z + z * x
-    };
-    let mut adopted = arrayvec::ArrayVec::new();
-    adopted.push(index);
-    while adopted.len() < WIDE {
-        let parents = adopted.iter().enumerate().filter(|(_, child)| children(**child).is_some());
-        let larger = parents.max_by(|(_, a), (_, b)| area(**a).total_cmp(&area(**b)));
-        let Some((lane, &parent)) = larger else { break };
-        let [left, right] = children(parent).expect("it was found to have children");
-        adopted[lane] = left;
-        adopted.push(right);
-    }
-    adopted
+    nodes.reverse();
+    (Hierarchy { nodes, root: numbers.first().copied() }, order)
 }
 
 /// A child put off, and the distance at which its box is entered.
-type PutOff = (u32, f32);
+type PutOff = (u32, f64);
 
 /// Children put off, the last first. As many as trees usually are deep need no memory of their own.
 struct Waiting {
@@ -207,4 +229,89 @@ impl Waiting {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Boxes the size of their distance, nearer and nearer to a point: a tree deeper than any usual one.
+    #[test]
+    fn a_deep_tree_is_walked_to_its_end() {
+        let scale = |k: usize| 0.5f64.powi(k as i32);
+        let boxes = (0..120).map(|k| [Vec3::repeat(scale(k)), Vec3::repeat(1.5 * scale(k))]);
+        let (tree, order) = Hierarchy::new(boxes);
+        let mut seen = 0;
+        let none = tree.nearest(Vec3::repeat(-1.0), Vec3::repeat(1.0), |_| -> Option<(f64, ())> {
+            seen += 1;
+            None
+        });
+        assert!(none.is_none() && seen == 120 && order.len() == 120);
+        let last = |leaf: usize| Some((scale(order[leaf] as usize) + 1.0, order[leaf]));
+        let (_, nearest) = tree.nearest(Vec3::repeat(-1.0), Vec3::repeat(1.0), last).unwrap();
+        assert!(nearest > 45, "the boxes beyond 2⁻⁵² are one in double precision: {nearest}");
+    }
+
+    /// Where a ray enters a box in double precision, if it does.
+    fn enters([low, high]: &Corners, origin: Vec3, direction: Vec3) -> Option<f64> {
+        let (mut enter, mut exit) = (0.0f64, f64::INFINITY);
+        for k in 0..3 {
+            let per_step = reciprocal(direction[k]);
+            let (a, b) = ((low[k] - origin[k]) * per_step, (high[k] - origin[k]) * per_step);
+            (enter, exit) = (enter.max(a.min(b)), exit.min(a.max(b)));
+        }
+        (enter <= exit).then_some(enter)
+    }
+
+    proptest! {
+        /// From near and afar, aslant and along an axis: what the tree finds is what looking at every box finds.
+        #[test]
+        fn no_box_is_passed_by(
+            places in prop::collection::vec([-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0, 0.0f64..0.2], 1..60),
+            aim in [-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0],
+            way in [-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0],
+            away in -1.0f64..6.0,
+            straight in 0usize..7,
+        ) {
+            let boxes: Vec<Corners> = places
+                .iter()
+                .map(|[x, y, z, side]| [Vec3::new(*x, *y, *z), Vec3::new(x + side, y + 0.5 * side, z + side)])
+                .collect();
+            let mut way = Vec3::from(way);
+            (0..3).filter(|k| straight & (1 << k) != 0).for_each(|k| way[k] = 0.0);
+            prop_assume!(way.norm() > 1e-3);
+            let origin = Vec3::from(aim) - way.normalize() * libm::pow(10.0, away);
+            let (tree, order) = Hierarchy::new(boxes.iter().copied());
+            let every = boxes.iter().filter_map(|b| enters(b, origin, way)).fold(f64::INFINITY, f64::min);
+            let meet = |leaf: usize| Some((enters(&boxes[order[leaf] as usize], origin, way)?, ()));
+            let found = tree.nearest(origin, way, meet).map_or(f64::INFINITY, |(t, ())| t);
+            prop_assert_eq!(found, every);
+        }
+    }
+
+    #[test]
+    fn nothing_is_met_in_nothing_and_one_box_is_enough() {
+        let (nothing, _) = Hierarchy::new(std::iter::empty());
+        assert!(nothing.nearest(Vec3::zeros(), Vec3::z(), |_| Some((1.0, ()))).is_none());
+        let (one, order) = Hierarchy::new(std::iter::once([Vec3::zeros(), Vec3::repeat(1.0)]));
+        assert_eq!(one.nearest(-Vec3::z(), Vec3::z(), |leaf| Some((2.0, leaf))), Some((2.0, 0)));
+        assert_eq!(order, [0]);
+    }
+
+    #[test]
+    fn a_ray_in_the_side_of_a_box_meets_it() {
+        let flat = |x: f64| [Vec3::new(x, -1.0, 0.0), Vec3::new(x + 1.0, 1.0, 0.0)];
+        let (tree, _) = Hierarchy::new([flat(-1.0), flat(0.0)].into_iter());
+        for (origin, direction) in [
+            (Vec3::new(0.0, 0.0, 1.0), -Vec3::z()),
+            (Vec3::new(0.0, -3.0, 0.0), Vec3::y()),
+            (Vec3::new(0.0, 1.0, 2.0), Vec3::new(-0.0, 0.0, -1.0)),
+        ] {
+            let mut met = 0;
+            tree.nearest(origin, direction, |_| -> Option<(f64, ())> {
+                met += 1;
+                None
+            });
+            assert_eq!(met, 2, "{origin} {direction}");
+        }
+    }
+}
