@@ -126,7 +126,7 @@ fn a_run_a_look_and_the_end() {
 
     // The lab: the same experiment, live.
     pty.send("Ev");
-    pty.wait_for("Methods");
+    pty.wait_for("tiny is open");
     pty.send("2");
     pty.wait_for("A averaged");
     pty.send(" ");

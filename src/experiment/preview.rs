@@ -4,11 +4,11 @@ use bevy_ecs::prelude::{Component, Entity, World};
 
 use super::author::author;
 use super::spec::{LightSpec, Scale, Spec, SurfaceSpec, TextureSpec, no_such};
-use crate::method::{Method, Progress};
+use crate::method::{self, Method};
 use crate::render::{self, Film, Filtered, PixelSampler};
 use crate::scene::{
-    Current, Failure, Halt, LightSource, Map, MovedLight, ProbePlan, ReferencePlan, SceneOf,
-    StagedScene, Stagehand, SurfaceShape, stage,
+    Current, Failure, Halt, LightSource, Map, MovedLight, ProbePlan, Progress, ReferencePlan,
+    SceneOf, StagedScene, Stagehand, SurfaceShape, stage,
 };
 
 /// Which image of an experiment.
@@ -44,7 +44,12 @@ pub struct Stock {
     texture: Option<((TextureSpec, bool), Map)>,
     surface: Option<(SurfaceSpec, SurfaceShape)>,
     light: Option<(LightSpec, LightSource)>,
+    /// What was told while the last scene's surface and light were made, if they were not kept.
+    told: Vec<String>,
 }
+
+/// Ticks that load whatever there is: a light that moves is made after the one at rest.
+const LOADS: usize = 2;
 
 impl Stock {
     /// [`stage_one`], with what of the scene before is the same.
@@ -68,7 +73,12 @@ impl Stock {
         lend(&self.light, &one.light, &mut hand.world, light);
         // With no method in the sweep, and neither reference nor probes, a tick loads what is missing and no more.
         hand.world.entity_mut(scene.entity).remove::<(ReferencePlan, ProbePlan)>();
-        hand.tick();
+        let told = (0..LOADS).flat_map(|_| hand.tick());
+        let noted = told.filter_map(|progress| match progress {
+            Progress::Noted { text } => Some(text),
+            _ => None,
+        });
+        self.told = noted.collect();
         if let Some(error) = hand.world.resource_mut::<Failure>().0.take() {
             return Err(NoImage(error.to_string()));
         }
@@ -128,7 +138,7 @@ fn one_of(spec: &Spec, wish: &Wish<'_>) -> Result<Spec, NoImage> {
 pub struct Frames {
     /// One a frame.
     pub films: Vec<Film>,
-    /// What is worth knowing about the texture, a sentence each.
+    /// What is worth knowing about the texture, the surface and the light, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -142,11 +152,12 @@ pub fn render_frames(
     method: &dyn Method,
     wish: &Wish<'_>,
     count: u32,
-    progress: &dyn Progress,
+    progress: &dyn method::Progress,
     rendered: &dyn Fn(u32),
 ) -> Result<Frames, NoImage> {
     let mut stock = Stock::default();
     let staged = stock.stage_one(spec, wish)?;
+    let notes = [stock.notes(), &stock.told].concat();
     let prefiltered = method
         .prefilter(&staged.map, &staged.material.base, progress)
         .map_err(|error| NoImage(format!("{}: {error}", method.card().name)))?;
@@ -161,5 +172,5 @@ pub fn render_frames(
         films.push(film);
         rendered(number);
     }
-    Ok(Frames { films, notes: stock.notes().to_vec() })
+    Ok(Frames { films, notes })
 }

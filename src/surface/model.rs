@@ -150,6 +150,11 @@ impl Soup {
             let help = "export the model with faces of at least three different vertices";
             return Err(wrong(path, "", "no triangle with area", help));
         }
+        let laid: Vec<Vec3> = (self.points.iter())
+            .map(|point| Vec3::new(point.uv[0].into(), point.uv[1].into(), 0.0))
+            .collect();
+        let unlaid = |corners: &&[u32; 3]| smooth::area(&laid, **corners) == 0.0;
+        let without_bumps = self.triangles.iter().filter(unlaid).count();
         let normals = smooth::normals(&positions, &self.points, &self.triangles);
         let corners = tangents::corners(&positions, &normals, &self.points, &self.triangles);
         let vertex = |(k, point): (usize, &Point)| Vertex {
@@ -164,6 +169,14 @@ impl Soup {
             notes.push(format!(
                 "{}: {left_out} of {all} triangles have no area and are left out",
                 path.display()
+            ));
+        }
+        if without_bumps > 0 {
+            notes.push(format!(
+                "{}: {without_bumps} of {} triangles have no area in texture coordinates, so no bumps are seen on them; \
+                 unwrap the model if they should be",
+                path.display(),
+                mesh.triangles()
             ));
         }
         Ok(Model { mesh, notes })

@@ -205,6 +205,18 @@ fn tangents_of_the_file_are_taken() {
 }
 
 #[test]
+fn triangles_that_the_texture_is_not_laid_on_are_told_of() {
+    let text = format!("{CUBE}f 1/1 2/1 3/1\n");
+    let cube = model("cube.obj", text.as_bytes()).unwrap();
+    assert_eq!(cube.mesh.triangles(), 13);
+    assert!(
+        cube.notes[0].contains("1 of 13 triangles have no area in texture"),
+        "{:?}",
+        cube.notes
+    );
+}
+
+#[test]
 fn triangles_without_area_are_left_out_and_told_of() {
     let text = format!("{CUBE}f 1/1 1/2 2/3\nf 1/1 2/2 2/3\n");
     let cube = model("cube.obj", text.as_bytes()).unwrap();

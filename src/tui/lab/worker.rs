@@ -10,7 +10,6 @@ use super::bench::{Bench, Shelf, Watch};
 use super::setup::Setup;
 use super::told::{Finding, Held, Look, Order, Told, Under, Wanted};
 use crate::experiment::preview::Stock;
-use crate::experiment::spec::Experiment;
 use crate::file::write_whole;
 use crate::job;
 use crate::method::Prefiltered;
@@ -220,13 +219,13 @@ fn open(name: &str) -> Result<Setup, String> {
     if job::is_image(path) {
         return Setup::of_map(path);
     }
-    let failed = |error: job::FindError| error.to_string();
-    if let Ok(Experiment::Paper(paper)) = job::load(name) {
-        let first = paper.parts.first().map(|part| part.name.clone());
-        let part = first.ok_or_else(|| format!("experiment `{name}` has no scenes"))?;
-        return open(&format!("{name}/{part}"));
+    match job::draft(name) {
+        Ok(draft) => Setup::of_draft(name, draft),
+        Err(job::FindError::WhichPart { parts, .. }) if !parts.is_empty() => {
+            open(&format!("{name}/{}", parts[0]))
+        }
+        Err(error) => Err(error.to_string()),
     }
-    Setup::of_draft(name, job::draft(name).map_err(failed)?)
 }
 
 /// Writes an experiment under the first free name.
