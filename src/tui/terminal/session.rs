@@ -7,6 +7,7 @@ use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Once, OnceLock};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use crossterm::terminal::{
     BeginSynchronizedUpdate, EndSynchronizedUpdate, disable_raw_mode, enable_raw_mode,
@@ -54,6 +55,13 @@ pub struct Session {
 
 /// Whether the terminal is taken just now.
 static TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// Whether a frame is being written just now.
+static DRAWING: AtomicBool = AtomicBool::new(false);
+
+/// How long a frame may take to be written before the terminal is given back over it: a terminal that takes nothing any
+/// more must not keep the program.
+const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Standard output without its lock: whoever gives the terminal back must not wait for a thread that is writing.
 static OUTPUT: OnceLock<File> = OnceLock::new();
@@ -145,17 +153,34 @@ pub fn give_back() -> bool {
     if !TAKEN.swap(false, Ordering::SeqCst) {
         return false;
     }
+    // A frame that is being written would take the cursor away again. No other begins: it would not find the terminal
+    // taken.
+    let start = Instant::now();
+    while DRAWING.load(Ordering::SeqCst) && start.elapsed() < PATIENCE {
+        thread::sleep(Duration::from_millis(1));
+    }
     // If the terminal is gone there is nothing to give back.
     let _ = send(&sequences::give());
     let _ = disable_raw_mode();
     true
 }
 
-/// Draws a frame that the terminal shows at once, where it can: no half-drawn pictures.
+/// Draws a frame that the terminal shows at once, where it can: no half-drawn pictures. Nothing is drawn once the
+/// terminal has been given back.
 ///
 /// # Errors
 /// If the terminal is gone.
 pub fn draw(terminal: &mut Tty, render: impl FnOnce(&mut Frame)) -> io::Result<()> {
+    DRAWING.store(true, Ordering::SeqCst);
+    let drawn = match TAKEN.load(Ordering::SeqCst) {
+        true => write_frame(terminal, render),
+        false => Ok(()),
+    };
+    DRAWING.store(false, Ordering::SeqCst);
+    drawn
+}
+
+fn write_frame(terminal: &mut Tty, render: impl FnOnce(&mut Frame)) -> io::Result<()> {
     crossterm::queue!(terminal.backend_mut(), BeginSynchronizedUpdate)?;
     terminal.draw(render)?;
     crossterm::execute!(terminal.backend_mut(), EndSynchronizedUpdate)
